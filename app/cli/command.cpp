@@ -113,6 +113,10 @@ ProgramOption optionOf(const CLI::Option& option) {
     for (const std::string& name : option.get_lnames()) out.names.push_back("--" + name);
   }
   if (option.get_items_expected_max() == 0) return out;
+  const std::string otherwise = option.get_default_str();
+  if (!otherwise.empty() && otherwise != "\"\"" && otherwise != "[]" &&
+      out.description.find("efault") == std::string::npos)
+    out.description += fmt::format(" (default: {})", otherwise);
   const std::string type = option.get_type_name();
   const std::size_t colon = type.find(':');
   const std::size_t brace = type.find('{');

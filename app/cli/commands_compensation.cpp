@@ -87,7 +87,7 @@ void addVerify(CLI::App& app, CommandLine& line) {
       ->capture_default_str();
   command->add_option("--goal-urad", a->request.goal_urad, "Goal in µrad for rotations; 0: they are not judged")
       ->check(nonNegativeNumber());
-  command->add_option("--criterion", a->criterion, "What the goal bounds: largest or rms")
+  command->add_option("--criterion", a->criterion, "Quantity that the goal limits: the largest residual or the rms")
       ->check(CLI::IsMember({"largest", "rms"}))
       ->capture_default_str();
 }
@@ -111,13 +111,14 @@ void addCompensationCommands(CLI::App& app, CommandLine& line) {
       ->capture_default_str();
   command->add_option("--state", a->request.state,
                       "Thermal state; default: the one with the largest rms of the measured deviations");
-  command->add_option("--points", a->points, "Points that fit the nine parameters, such as F1,F2,F3");
+  command->add_option("--points", a->points, "Points used to fit the nine parameters, such as F1,F2,F3");
   command->add_option("--accept", a->request.added, "Effect that completes the simulation (id, repeatable)")
       ->type_name("ID");
   command->add_option("--positions", a->request.positions, "Positions along each axis, 2 to 51")->capture_default_str();
   command
-      ->add_option("--reference", a->reference,
-                   "Where the component tables pass through, in mm; else the middle of the travels")
+      ->add_option(
+          "--reference", a->reference,
+          "Position through which the lines of the component tables pass, in mm; default: the middle of the travels")
       ->type_name("X,Y,Z");
   command
       ->add_option("--out", a->out,

@@ -153,7 +153,7 @@ void addConnectCommands(CLI::App& app, CommandLine& line) {
   auto a = std::make_shared<RecordArguments>();
   CLI::App* command = addCommand(
       app, line, "record",
-      "Record data of machines and sensors straight into a log (connections.json says which data item becomes which "
+      "Record data from machines and sensors directly into a log (connections.json says which data item becomes which "
       "column), until --for has passed or an interruption (Ctrl+C). Only reads. Exit status 1: a source was never "
       "reached, "
       "a column has no value, or the disk is full",
@@ -164,7 +164,7 @@ void addConnectCommands(CLI::App& app, CommandLine& line) {
       ->type_name("FILE");
   command->add_option("--session", a->session, "Record into log.csv of the newest campaign of this session")
       ->type_name("FOLDER");
-  command->add_option("--start", a->start, "UTC where time_s is 0; without it: now, or the campaign's start")
+  command->add_option("--start", a->start, "UTC time at which time_s is 0; default: now, or the start of the campaign")
       ->type_name("TIME");
   command->add_option("--for", a->for_s, "Stop after this time in s")->check(positiveNumber());
   command

@@ -31,20 +31,20 @@ void addDiscrepancyCommands(CLI::App& app, CommandLine& line) {
       ->capture_default_str();
   command
       ->add_option("--suggest-hours", request->options.suggest_hours,
-                   "Hours that the measurement suggested next may take, at most 72")
+                   "Maximum duration of the suggested next measurement in h, at most 72")
       ->capture_default_str();
   command
       ->add_option("--suggest-points", request->options.suggest_points,
-                   "Points that the measurement suggested next may have, 1 to 50")
+                   "Maximum number of points of the suggested next measurement, 1 to 50")
       ->capture_default_str();
   command
       ->add_option("--suggest-times", request->options.suggest_times,
-                   "Times at which it may measure these points, 3 to 200")
+                   "Maximum number of times at which it measures these points, 3 to 200")
       ->capture_default_str();
   command
       ->add_option("--simulator", request->simulator,
-                   "Simulation that can be run (simulator.json): its parameters and sensors are looked at as well. "
-                   "Runs the programs that the file names")
+                   "Simulation that can be run (simulator.json): its parameters and sensors are searched as well. Runs "
+                   "the programs that the file names")
       ->type_name("FILE");
   command
       ->add_option("--into-simulation", request->into_simulation,

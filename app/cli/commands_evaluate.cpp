@@ -89,7 +89,7 @@ void addEvaluateCommands(CLI::App& app, CommandLine& line) {
         return CommandResult{evaluation.json(), evaluation.summary(), evaluation.good_enough ? Done : NotGoodEnough};
       });
   command->add_option("CAMPAIGN", arguments->campaign, "Folder of the campaign, or of a session")->required();
-  command->add_option("--campaign", arguments->of_session, "Which campaign of the session; default: the last at hand")
+  command->add_option("--campaign", arguments->of_session, "Campaign of the session; default: the one opened last")
       ->type_name("NAME");
   command->add_option("--out", arguments->out, "Write the observations to this CSV file")->type_name("FILE");
   command

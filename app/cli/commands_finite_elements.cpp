@@ -158,14 +158,15 @@ void addFiniteElementCommands(CLI::App& app, CommandLine& line, const ReaderOfMa
                                  "Write simulation.csv from displacements of finite elements: tool minus table, in MCF",
                                  [arguments, open](JobContext& job) { return import(*arguments, open, job); });
   command->add_option("RESULT", arguments->result,
-                      "CalculiX .frd (ASCII) or .dat, VTK .vtu or .pvd (read by spindrift-fe, which stands beside this "
-                      "program); may stand in the map");
+                      "CalculiX .frd (ASCII) or .dat, VTK .vtu or .pvd (read by the program spindrift-fe); may be "
+                      "named in the map");
   command->add_option("--out", arguments->out, "simulation.csv to write")->required()->type_name("FILE");
   command
-      ->add_option("--map", arguments->map, "fe.json: unit, nodes of tool and table, times, frame; options go before")
+      ->add_option("--map", arguments->map,
+                   "fe.json: unit, nodes of tool and table, times, frame; options take precedence")
       ->type_name("FILE");
   command->add_option("--unit", arguments->unit, "Unit of the displacements, mm or m")->type_name("UNIT");
-  command->add_option("--unit-of-length", arguments->length_unit, "Unit of coordinates, if it is another one")
+  command->add_option("--unit-of-length", arguments->length_unit, "Unit of the coordinates, if different")
       ->type_name("UNIT");
   command->add_option("--mesh", arguments->mesh, "Mesh with node sets (.inp of CalculiX or Abaqus)")->type_name("FILE");
   command
@@ -181,12 +182,12 @@ void addFiniteElementCommands(CLI::App& app, CommandLine& line, const ReaderOfMa
       ->type_name("FILE");
   command->add_option("--components", arguments->components, "Of EX,EY,EZ,EA,EB,EC; the first three if not given")
       ->type_name("LIST");
-  command->add_option("--first", arguments->first_s, "Time of the state without any displacement, in s")
+  command->add_option("--first", arguments->first_s, "Time of the undeformed state in s")
       ->type_name("S")
       ->each([arguments](const std::string&) { arguments->has_first = true; });
   command
       ->add_option("--interval", arguments->interval_s,
-                   "States are so many seconds apart, the first one interval after --first; else their own times in s")
+                   "Time between states in s, the first one interval after --first; default: the times in the result")
       ->type_name("S")
       ->check(positiveNumber());
   command->add_option("--displacement", arguments->array, "Name of the array of displacements in a VTK file")

@@ -87,7 +87,8 @@ void addFitOptions(CLI::App* command, const std::shared_ptr<FitArguments>& a, bo
   command->add_option("--state", a->state, "Thermal state, such as M1; default: the last one");
   command->add_option("--points", a->points,
                       "Points to fit, such as F1,F2,F3; the others are used for validation. Default: all");
-  command->add_option("--robust", a->robust, "Robust loss function: none, huber or tukey")
+  command
+      ->add_option("--robust", a->robust, "Loss function of the fit; huber and tukey reduce the influence of outliers")
       ->check(CLI::IsMember({"none", "huber", "tukey"}));
 }
 
@@ -234,16 +235,17 @@ void addKinematicsCommands(CLI::App& app, CommandLine& line) {
                      "I: smallest mean variance over the table; D: smallest volume of "
                      "the parameters' confidence region")
         ->check(CLI::IsMember({"I", "D"}));
-    command->add_option("--lattice", a->lattice, "Candidates on a lattice over the table; else the machine's fiducials")
-        ->type_name("NX,NY");
-    command->add_option("--margin", a->margin_mm, "Distance of the lattice from the border of the table in mm");
     command
-        ->add_option(
-            "--distance", a->distance_mm,
-            "Least distance between two fiducials in mm; else a tenth of the diagonal of the table, or what the "
-            "candidates allow")
+        ->add_option("--lattice", a->lattice,
+                     "Candidate positions on a lattice over the table; default: the machine's fiducials")
+        ->type_name("NX,NY");
+    command->add_option("--margin", a->margin_mm, "Distance of the lattice from the edge of the table in mm");
+    command
+        ->add_option("--distance", a->distance_mm,
+                     "Minimum distance between two fiducials in mm; default: a tenth of the diagonal of the table, or "
+                     "what the candidates allow")
         ->check(nonNegativeNumber());
-    command->add_option("--keep", a->fixed, "Points that are measured in any case, such as F1,F2");
+    command->add_option("--keep", a->fixed, "Points to include in any case, such as F1,F2");
     command->add_option("--sigma-xy", a->sigma_xy_um, "Standard uncertainty of a displacement in the plane in µm");
     command->add_option("--sigma-z", a->sigma_z_um, "Standard uncertainty of a height in µm");
   }
@@ -260,7 +262,9 @@ void addKinematicsCommands(CLI::App& app, CommandLine& line) {
                                        "repeated measurements of one point");
     command->add_option("--point", a->point,
                         "The point that was measured repeatedly; default: the one with the most rows");
-    command->add_option("--limit", a->drift_limit_um_per_h, "Drift in µm/h below which it counts as settled")
+    command
+        ->add_option("--limit", a->drift_limit_um_per_h,
+                     "Drift in µm/h below which the instrument is regarded as stable")
         ->check(positiveNumber());
   }
   addCheck("validate-jogs", "Validate measured axis steps (jogs), one per state, against the axis resolution");

@@ -162,19 +162,22 @@ void addLoopCommands(CLI::App& app, CommandLine& line) {
                               [arguments](JobContext& job) { return runLoop(*arguments, job); });
   loop->add_option("PLAN", arguments->plan, "Plan (JSON, format spindrift-loop-plan)");
   loop->add_option("--out", arguments->out,
-                   "Folder for campaign and report: new, empty, or that of this loop, which goes on")
+                   "Folder for campaign and report: new or empty, or that of an interrupted loop, which is continued")
       ->type_name("DIR");
-  loop->add_flag("--demo", arguments->demo,
-                 "A virtual machine with physics beside a LinuxCNC of its own (package linuxcnc-uspace; as root)");
+  loop->add_flag(
+      "--demo", arguments->demo,
+      "Run the demonstration: a virtual machine with a LinuxCNC control of its own (package linuxcnc-uspace; as root)");
   loop->add_option("--example", arguments->example,
-                   "Write the demonstration as files (plan, machine, simulation, a LinuxCNC for it), and end")
+                   "Write the demonstration as files (plan, machine, simulation, LinuxCNC configuration) and exit")
       ->type_name("DIR");
   loop->add_flag("--dry-run", arguments->dry, "List the planned moves without moving");
-  loop->add_flag("--yes", arguments->yes, "The operator stands at the machine and agrees to what moves");
-  loop->add_option("--factor", arguments->options.factor, "Demonstration, example: machine seconds per second")
+  loop->add_flag("--yes", arguments->yes,
+                 "Confirm that the operator is at the machine and agrees to the planned moves");
+  loop->add_option("--factor", arguments->options.factor,
+                   "Demonstration and example: ratio of machine time to real time")
       ->check(positiveNumber())
       ->capture_default_str();
-  loop->add_option("--hours", arguments->options.hours, "Demonstration, example: hours of machine time")
+  loop->add_option("--hours", arguments->options.hours, "Demonstration and example: duration in hours of machine time")
       ->check(positiveNumber())
       ->capture_default_str();
 
@@ -183,10 +186,12 @@ void addLoopCommands(CLI::App& app, CommandLine& line) {
       addCommand(app, line, "virtual-machine", "Run the virtual machine beside a LinuxCNC control of this computer",
                  [machine](JobContext& job) { return runMachine(*machine, job); });
   beside->add_option("SCENARIO", machine->scenario, "Scenario (JSON, format spindrift-scenario)")->required();
-  beside->add_option("--truth", machine->truth, "What only the judge may know: true deviations and compensations")
+  beside
+      ->add_option("--truth", machine->truth,
+                   "Write the true deviations and the applied compensation, for assessment only, to this file")
       ->required()
       ->type_name("FILE");
-  beside->add_option("--factor", machine->options.factor, "Machine seconds per second")
+  beside->add_option("--factor", machine->options.factor, "Ratio of machine time to real time")
       ->check(positiveNumber())
       ->capture_default_str();
   beside->add_option("--hours", machine->hours, "Hours of machine time")

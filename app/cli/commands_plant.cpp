@@ -53,10 +53,9 @@ PlantAddress addressOf(const std::string& given) {
 
 void addStore(CLI::App* command, std::string& store) {
   command
-      ->add_option(
-          "--store", store,
-          "The plant store: a file (SQLite), or postgresql:host=NAME dbname=plant user=NAME; without it the one "
-          "that SPINDRIFT_PLANT names")
+      ->add_option("--store", store,
+                   "The plant store: a file (SQLite), or postgresql:host=NAME dbname=plant user=NAME; default: the one "
+                   "that SPINDRIFT_PLANT names")
       ->type_name("ADDRESS");
 }
 
@@ -275,10 +274,13 @@ void addPlantGroup(CLI::App& app, CommandLine& line) {
         add("trend", "One parameter of a machine over months: control limits, and changes that are more than chance",
             [](const PlantArguments& args, JobContext&) { return trend(args); });
     command->add_option("MACHINE", a->machine, "Machine")->required();
-    command->add_option("PARAMETER", a->parameter, "Parameter, such as EX_um or fit/EX_um; without it those there are");
-    command->add_option("--state", a->state, "Thermal state or cycle; without it the last one of each campaign")
+    command->add_option("PARAMETER", a->parameter,
+                        "Parameter, such as EX_um or fit/EX_um; default: list those available");
+    command->add_option("--state", a->state, "Thermal state or cycle; default: the last one of each campaign")
         ->type_name("NAME");
-    command->add_option("--baseline", a->chart.baseline, "Values that level and limits are taken from, 5 to 1000")
+    command
+        ->add_option("--baseline", a->chart.baseline,
+                     "Number of values that determine level and control limits, 5 to 1000")
         ->capture_default_str();
     command->add_option("--alpha", a->chart.alpha, "Significance level: probability of a false alarm, 0.001 to 0.2")
         ->capture_default_str();
@@ -290,20 +292,20 @@ void addPlantGroup(CLI::App& app, CommandLine& line) {
     command->add_option("CAMPAIGN", a->campaigns, "Numbers that plant list shows, two or more")->required();
   }
   {
-    auto [command, a] = add("event", "Enter what was done to a machine, or how often it is to be measured",
+    auto [command, a] = add("event", "Record an event of a machine, such as a repair, or its measurement interval",
                             [](const PlantArguments& args, JobContext&) { return event(args); });
     command->add_option("MACHINE", a->machine, "Machine")->required();
-    command->add_option("--kind", a->kind, "What")->check(CLI::IsMember(eventKinds()));
-    command->add_option("--time", a->time, "When (UTC); without it now")->type_name("TIME");
-    command->add_option("--note", a->note, "A few words")->type_name("TEXT");
-    command->add_option("--every-days", a->every_days, "Measure it every so many days; 0: not said")
+    command->add_option("--kind", a->kind, "Kind of event")->check(CLI::IsMember(eventKinds()));
+    command->add_option("--time", a->time, "Time of the event (UTC); default: now")->type_name("TIME");
+    command->add_option("--note", a->note, "Remark")->type_name("TEXT");
+    command->add_option("--every-days", a->every_days, "Measurement interval in days; 0: not specified")
         ->check(nonNegativeNumber());
   }
   {
-    auto [command, a] = add(
-        "export", "Write all that is stored, or that of one machine, as JSON; a machine's report as HTML", exportStore);
+    auto [command, a] =
+        add("export", "Export the whole store or one machine as JSON; report of a machine as HTML", exportStore);
     command->add_option("--machine", a->machine, "Only this machine")->type_name("NAME");
-    command->add_option("--out", a->out, "JSON file; without it standard output")->type_name("FILE");
+    command->add_option("--out", a->out, "JSON file; default: standard output")->type_name("FILE");
     command->add_option("--html", a->html, "Report of the machine (one HTML file)")->type_name("FILE");
   }
 }
@@ -557,20 +559,21 @@ CommandResult sweepBatch(BatchArguments a) {
 }
 
 void addEngineOptions(CLI::App* command, BatchArguments& a) {
-  command->add_option("--engine", a.engine, "Where: processes on this computer, or tasks of Slurm")
+  command->add_option("--engine", a.engine, "Where to run: local processes, or tasks of Slurm")
       ->check(CLI::IsMember({"local", "slurm"}))
       ->capture_default_str();
-  command->add_option("--processes", a.processes, "local: processes, 0: as many as there are processors")
+  command->add_option("--processes", a.processes, "local: number of processes; 0: one per processor")
       ->check(CLI::Range(0, 10000));
-  command->add_option("--tasks", a.tasks, "slurm: tasks of the array")
+  command->add_option("--tasks", a.tasks, "slurm: number of tasks of the array")
       ->check(CLI::Range(1, 10000))
       ->capture_default_str();
-  command->add_option("--time-limit", a.time_limit_min, "slurm: minutes a task may take, 0: that of the partition")
+  command
+      ->add_option("--time-limit", a.time_limit_min, "slurm: time limit of a task in minutes; 0: that of the partition")
       ->check(CLI::Range(0, 1000000));
   command->add_flag(
       "--wait", a.wait,
       "slurm: wait until nothing is open, and give Slurm again what it has lost or did not bring to an end");
-  command->add_option("--logs", a.logs, "slurm: folder for what the tasks print")
+  command->add_option("--logs", a.logs, "slurm: folder for the output of the tasks")
       ->capture_default_str()
       ->type_name("DIR");
 }
@@ -601,8 +604,9 @@ void addBatchGroup(CLI::App& app, CommandLine& line) {
   {
     auto [command, a] = add("status", "Show progress and cost of batches, or the results of one batch",
                             [](const BatchArguments& args, JobContext&) { return statusOfBatch(args); });
-    command->add_option("BATCH", a->batch, "Number or name; without it all batches");
-    command->add_option("--results", a->results, "Write the answers to this file, one JSON a line")->type_name("FILE");
+    command->add_option("BATCH", a->batch, "Number or name; default: all batches");
+    command->add_option("--results", a->results, "Write the results to this file, one JSON document per line")
+        ->type_name("FILE");
   }
   {
     auto [command, a] = add("cancel", "Cancel a batch: no further item is started, running items are returned",
@@ -616,23 +620,25 @@ void addBatchGroup(CLI::App& app, CommandLine& line) {
     addEngineOptions(command, *a);
   }
   {
-    auto [command, a] = add("work", "One worker: claims and works until nothing is free (the engines start it)",
-                            [](const BatchArguments& args, JobContext&) { return workBatch(args); });
+    auto [command, a] =
+        add("work", "Run one worker: claim and process items until none is free (started by the engines)",
+            [](const BatchArguments& args, JobContext&) { return workBatch(args); });
     command->add_option("BATCH", a->batch, "Number or name")->required();
-    command->add_option("--engine", a->engine, "Who started it")->check(CLI::IsMember({"local", "slurm"}));
-    command->add_option("--budget", a->budget_s, "Begin nothing new after this time in s")->check(nonNegativeNumber());
+    command->add_option("--engine", a->engine, "Engine that started the worker")
+        ->check(CLI::IsMember({"local", "slurm"}));
+    command->add_option("--budget", a->budget_s, "Start no new item after this time in s")->check(nonNegativeNumber());
   }
   {
-    auto [command, a] = add("tend", "Keep a worker working until nothing is free (Slurm starts it)",
+    auto [command, a] = add("tend", "Keep a worker running until no item is free (started by Slurm)",
                             [](const BatchArguments& args, JobContext&) { return tendBatch(args); });
     command->add_option("BATCH", a->batch, "Number")->required();
   }
   {
-    auto [command, a] = add("sweep", "After a round of Slurm: starts another one while something is open",
+    auto [command, a] = add("sweep", "After a round of Slurm: start another one while items are open",
                             [](const BatchArguments& args, JobContext&) { return sweepBatch(args); });
     command->add_option("BATCH", a->batch, "Number or name")->required();
-    command->add_option("--round", a->round, "The round that has ended, counted since the last answer");
-    command->add_option("--answered", a->answered, "Answers there were when it began");
+    command->add_option("--round", a->round, "Number of the round that has ended, counted since the last answer");
+    command->add_option("--answered", a->answered, "Number of answers when the round began");
     addEngineOptions(command, *a);
   }
 }

@@ -116,12 +116,12 @@ void addCycle(CLI::App& app, CommandLine& line) {
       ->check(CLI::IsMember({"fanuc", "generic", "siemens", "heidenhain"}))
       ->capture_default_str();
   command->add_option("--artefact", a->artefact, "Id of the artefact, if the machine file has several");
-  command->add_option("--first-ball", a->first_ball, "Where the first ball stands in machine coordinates, mm")
+  command->add_option("--first-ball", a->first_ball, "Position of the first ball in machine coordinates, mm")
       ->delimiter(',')
       ->expected(3)
       ->type_name("X,Y,Z");
-  command->add_option("--clearance", a->plan.clearance_mm, "Free distance around material, mm")->capture_default_str();
-  command->add_option("--retract", a->plan.retract_mm, "Safe height above the highest material, mm")
+  command->add_option("--clearance", a->plan.clearance_mm, "Clearance around material, mm")->capture_default_str();
+  command->add_option("--retract", a->plan.retract_mm, "Retract height above the highest material, mm")
       ->capture_default_str();
   command
       ->add_option("--overtravel", a->plan.overtravel_mm,
@@ -130,16 +130,17 @@ void addCycle(CLI::App& app, CommandLine& line) {
   command->add_option("--depth", a->plan.depth_mm, "Depth of the touches in a hole, mm")->capture_default_str();
   command->add_option("--beside", a->plan.surface_offset_mm, "Distance of the surface touch from the hole, mm")
       ->capture_default_str();
-  command->add_option("--touch-feed", a->plan.touch_feed_mm_min, "Feed of a touch, mm/min")->capture_default_str();
-  command->add_option("--feed", a->plan.guarded_feed_mm_min, "Feed of guarded moves, mm/min")->capture_default_str();
-  command->add_option("--program-number", a->program.program_number, "Number of a fanuc program")
+  command->add_option("--touch-feed", a->plan.touch_feed_mm_min, "Probing feed, mm/min")->capture_default_str();
+  command->add_option("--feed", a->plan.guarded_feed_mm_min, "Feed of protected positioning moves, mm/min")
+      ->capture_default_str();
+  command->add_option("--program-number", a->program.program_number, "Program number (fanuc)")
       ->check(CLI::Range(1, 9999))
       ->capture_default_str();
   command
       ->add_option("--rotary-sign", a->program.rotary_sign, "-1 if the control counts the table clockwise from above")
       ->check(CLI::IsMember({-1, 1}))
       ->capture_default_str();
-  command->add_flag("--from-below", a->plan.touch_from_below, "Touch balls from below too (no pole under them)");
+  command->add_flag("--from-below", a->plan.touch_from_below, "Probe balls from below as well (no stem underneath)");
 }
 
 struct PrintedArguments {
@@ -167,7 +168,7 @@ void addImport(CLI::App& app, CommandLine& line) {
                        countOf(printed.touches.cycles().size(), "cycle"), countOf(printed.ignored_lines, "line"));
                    return result;
                  });
-  command->add_option("PRINTED", a->printed, "Text as the control printed it")->required();
+  command->add_option("PRINTED", a->printed, "Text file as printed by the control")->required();
   command->add_option("--machine", a->machine, "machine.json")->required()->type_name("FILE");
   command->add_option("--template", a->pattern, "Template (JSON); `cycle --template` writes one to start from")
       ->required()
@@ -183,7 +184,8 @@ struct HealthArguments {
 void addHealth(CLI::App& app, CommandLine& line) {
   auto a = std::make_shared<HealthArguments>();
   CLI::App* command = addCommand(
-      app, line, "probe-health", "Qualify styli on a sphere: pre-travel by direction, repeatability, a loose stylus",
+      app, line, "probe-health",
+      "Qualify styli on a sphere: pre-travel by direction, repeatability, detection of a loose stylus",
       [a](JobContext&) {
         const Campaign campaign = Campaign::read(a->campaign);
         const std::vector<StylusHealth> all = checkProbeHealth(touchesOf(campaign), campaign.machine, a->options);
@@ -224,7 +226,9 @@ void addHealth(CLI::App& app, CommandLine& line) {
         return result;
       });
   command->add_option("CAMPAIGN", a->campaign, "Folder of the campaign with touches on a sphere")->required();
-  command->add_option("--healthy", a->options.healthy_sigma_um, "Repeatability of a healthy probe, µm (one sigma)")
+  command
+      ->add_option("--healthy", a->options.healthy_sigma_um,
+                   "Repeatability of a sound probe, µm (one standard deviation)")
       ->capture_default_str();
 }
 
@@ -315,7 +319,9 @@ void addStudies(CLI::App& app, CommandLine& line) {
         return result;
       });
   compare->add_option("CAMPAIGN", b->campaign, "Folder of the campaign")->required();
-  compare->add_option("--reference", b->reference, "Record: time_s,value[,sigma], unit of the parameter")
+  compare
+      ->add_option("--reference", b->reference,
+                   "Record of the reference instrument: time_s,value[,sigma] in the unit of the parameter")
       ->required()
       ->type_name("CSV");
   compare->add_option("--parameter", b->parameter, "Parameter, for example EXX_um_per_m")->required();

@@ -113,7 +113,7 @@ void addReportingCommands(CLI::App& app, CommandLine& line) {
       ->add_option("CAMPAIGN", arguments->campaign,
                    "Folder of the campaign, of a session, or a LOG.csv with displacements (_um)")
       ->required();
-  command->add_option("--campaign", arguments->of_session, "Which campaign of the session; default: the last at hand")
+  command->add_option("--campaign", arguments->of_session, "Campaign of the session; default: the one opened last")
       ->type_name("NAME");
   command->add_option("--thermal", arguments->thermal, "Result (JSON) of thermal identify to report with it")
       ->type_name("FILE");
@@ -124,7 +124,7 @@ void addReportingCommands(CLI::App& app, CommandLine& line) {
       ->add_option("--observations", arguments->options.observations_file,
                    "Observations in place of the campaign's own or its captures")
       ->type_name("FILE");
-  command->add_option("--operator", arguments->options.operator_name, "Name of the operator for the last line");
+  command->add_option("--operator", arguments->options.operator_name, "Name of the operator, as printed in the report");
   command->add_flag("!--no-discrepancy", arguments->options.discrepancy,
                     "Do not search for a missing effect even if the campaign names a simulation");
   auto manual_file = std::make_shared<std::string>();

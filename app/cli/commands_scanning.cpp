@@ -92,7 +92,8 @@ void addCalibrate(CLI::App& app, CommandLine& line) {
   auto arguments = std::make_shared<CalibrateArguments>();
   CLI::App* command =
       addCommand(app, line, "calibrate-profiler",
-                 "Place of the laser profiler in the tool frame from a scan of a circular pocket: angles in rad, "
+                 "Determine position and orientation of the laser profiler in the tool frame from a scan of a circular "
+                 "pocket: angles in rad, "
                  "lengths in mm (dz "
                  "without the lift), with standard uncertainties and what the scan cannot determine",
                  [arguments](JobContext&) {
@@ -109,9 +110,13 @@ void addCalibrate(CLI::App& app, CommandLine& line) {
   command->add_option("--circle", arguments->circle, "x,y,z,r of the pocket's rim in the tool frame (mm)")
       ->type_name("X,Y,Z,R")
       ->required();
-  command->add_option("--alpha", arguments->alpha, "Known from elsewhere: angle,standard uncertainty (rad)")
+  command
+      ->add_option("--alpha", arguments->alpha,
+                   "Value known from another calibration: angle,standard uncertainty (rad)")
       ->type_name("V,S");
-  command->add_option("--gamma", arguments->gamma, "Known from elsewhere: angle,standard uncertainty (rad)")
+  command
+      ->add_option("--gamma", arguments->gamma,
+                   "Value known from another calibration: angle,standard uncertainty (rad)")
       ->type_name("V,S");
   command->add_option("--scan-model", arguments->scan_model, "rigid or push_broom, see register")
       ->check(CLI::IsMember({"rigid", "push_broom"}))
@@ -169,14 +174,15 @@ CommandResult designCommand(DesignArguments arguments) {
 
 void addDesign(CLI::App& app, CommandLine& line) {
   auto arguments = std::make_shared<DesignArguments>();
-  CLI::App* command = addCommand(app, line, "design-artefact",
-                                 "What a free-form surface z = ax sin(kx x) + ay sin(ky y) + axy sin(kx x + ky y) "
-                                 "determines: sigma of the six errors at its centroid (µm, µrad), weak directions, "
-                                 "slopes; STL for milling or printing. Defaults: the surface of the paper",
-                                 [arguments](JobContext&) { return designCommand(*arguments); });
+  CLI::App* command =
+      addCommand(app, line, "design-artefact",
+                 "Assess a free-form surface z = ax sin(kx x) + ay sin(ky y) + axy sin(kx x + ky y): "
+                 "standard uncertainties of the six errors at its centroid (µm, µrad), weakly determined directions, "
+                 "slopes; STL for milling or printing. Defaults: the surface of the reference publication",
+                 [arguments](JobContext&) { return designCommand(*arguments); });
   ArtefactSurface& s = arguments->surface;
-  command->add_option("--size-x", s.size_mm.x(), "mm")->capture_default_str();
-  command->add_option("--size-y", s.size_mm.y(), "mm, along the scan")->capture_default_str();
+  command->add_option("--size-x", s.size_mm.x(), "Size across the scan, mm")->capture_default_str();
+  command->add_option("--size-y", s.size_mm.y(), "Size along the scan, mm")->capture_default_str();
   command->add_option("--ax", s.amplitude_x_mm, "Amplitude, mm")->capture_default_str();
   command->add_option("--kx", s.wave_number_x_per_mm, "Wave number, rad/mm")->capture_default_str();
   command->add_option("--ay", s.amplitude_y_mm, "Amplitude, mm")->capture_default_str();
@@ -186,7 +192,8 @@ void addDesign(CLI::App& app, CommandLine& line) {
       ->type_name("X,Y,R,H");
   command->add_option("--noise", arguments->options.noise_um, "Standard deviation of the height of a point, µm")
       ->capture_default_str();
-  command->add_option("--points", arguments->options.point_count, "Of one scan")->capture_default_str();
+  command->add_option("--points", arguments->options.point_count, "Number of points of one scan")
+      ->capture_default_str();
   command
       ->add_option("--steepest-slope", arguments->options.steepest_slope,
                    "Steepest slope that the profiler can measure (dz/dx)")
@@ -266,7 +273,7 @@ CommandResult studyCommand(const CalibrationStudyArguments& a, JobContext& job) 
 void addStudy(CLI::App& app, CommandLine& line) {
   auto a = std::make_shared<CalibrationStudyArguments>();
   CLI::App* command = addCommand(app, line, "study-calibration",
-                                 "How much errors of the profiler's calibration change the six errors of the axis: "
+                                 "Propagate errors of the profiler's calibration to the six errors of the axis: "
                                  "Monte Carlo over every scan of a campaign, at the slide's origin and at the artefact",
                                  [a](JobContext& job) {
                                    a->options.validate();
@@ -279,10 +286,10 @@ void addStudy(CLI::App& app, CommandLine& line) {
   command->add_option("--length", a->options.length_sigma_mm, "Standard deviation of dx, dy and dz, mm")
       ->check(nonNegativeNumber())
       ->capture_default_str();
-  command->add_option("--trials", a->options.trials, "Trials a scan")
+  command->add_option("--trials", a->options.trials, "Number of trials per scan")
       ->check(CLI::Range(10, 10000000))
       ->capture_default_str();
-  command->add_option("--seed", a->options.seed, "Of the trials")->capture_default_str();
+  command->add_option("--seed", a->options.seed, "Random seed of the trials")->capture_default_str();
   command->add_option("--scan-model", a->scan_model, "rigid or push_broom, in place of the machine file")
       ->check(CLI::IsMember({"rigid", "push_broom"}));
 }

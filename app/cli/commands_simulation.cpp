@@ -114,10 +114,9 @@ void addSimulationCommands(CLI::App& app, CommandLine& line) {
                  [arguments](JobContext& job) { return simulate(*arguments, job); });
   command->add_option("SCENARIO", arguments->scenario, "Scenario (JSON, format spindrift-scenario)");
   command
-      ->add_option(
-          "--c-frame", arguments->c_frame,
-          "In place of a scenario: a machining centre in CalculiX (has to be installed) whose simulation lacks "
-          "one cause, sun, friction, coolant or room; the truth is written to <out>.truth.json")
+      ->add_option("--c-frame", arguments->c_frame,
+                   "In place of a scenario: a machining centre in CalculiX (must be installed) whose simulation lacks "
+                   "one cause, sun, friction, coolant or room; the truth is written to <out>.truth.json")
       ->type_name("STORY");
   command->add_option("--out", arguments->out, "Folder of the campaign: new or empty")->required()->type_name("DIR");
   command->add_option("--seed", arguments->seed, "Random seed, instead of that of the scenario")

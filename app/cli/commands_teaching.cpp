@@ -127,8 +127,7 @@ void addTeachingCommands(CLI::App& app, CommandLine& line) {
       "Set geometric errors and thermal effects of a machine, and show what they do to probing points, artefacts and a "
       "milled test part",
       [what](JobContext&) { return whatIf(*what); });
-  what_if->add_option("CAMPAIGN", what->campaign,
-                      "Campaign folder of the machine; without it and --machine: a standard machine");
+  what_if->add_option("CAMPAIGN", what->campaign, "Campaign folder of the machine; default: a standard machine");
   what_if->add_option("--machine", what->machine, "Machine (machine.json), in place of a campaign")->type_name("FILE");
   what_if
       ->add_option("--set", what->settings,
@@ -152,7 +151,7 @@ void addTeachingCommands(CLI::App& app, CommandLine& line) {
   exercise->add_option("CAMPAIGN", arguments->campaign,
                        "Campaign of an exercise; without --answer and --hints: list the effects to choose from");
   exercise->add_option("--out", arguments->out, "Folder of a new exercise: new or empty")->type_name("DIR");
-  exercise->add_option("--seed", arguments->seed, "Which exercise is drawn")
+  exercise->add_option("--seed", arguments->seed, "Random seed: selects the exercise")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
   exercise->add_option("--level", arguments->level, "Number of hidden effects (1, 2, 3), their size and the noise")
@@ -166,7 +165,7 @@ void addTeachingCommands(CLI::App& app, CommandLine& line) {
       ->type_name("EFFECT:DRIVER:SIZE");
   exercise
       ->add_option("--hints", arguments->hints,
-                   "Show so many hints, or count them as used: components, drivers, "
+                   "Number of hints to show, or to count as used: components, drivers, "
                    "families; each costs 10 marks")
       ->check(CLI::Range(0, exercise_hints))
       ->type_name("N");

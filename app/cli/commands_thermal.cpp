@@ -93,7 +93,7 @@ void addIdentify(CLI::App& parent, CommandLine& line) {
                    "displacements), at most eight that carry the information of all of them")
       ->capture_default_str();
   command->add_option("--train", a->train, "FROM:TO in s, FROM included, TO not")->required();
-  command->add_option("--test", a->test, "FROM:TO in s; nothing measured in it is used")->required();
+  command->add_option("--test", a->test, "FROM:TO in s; no measured output in it is used")->required();
   command->add_option("--period", a->request.period_s, "Sampling period of the identification in s (0: automatic)")
       ->check(nonNegativeNumber());
   command->add_option("--order", a->order, "na,nb,nk: poles, numerator coefficients per input, delay in samples");
@@ -109,7 +109,7 @@ void addIdentify(CLI::App& parent, CommandLine& line) {
       ->check(CLI::IsMember({"degC", "K", "degF"}));
   command->add_flag(
       "--peers", a->request.peers,
-      "Show two plain dynamic models beside: first-order ARX on two inputs, ridge regression on delayed inputs");
+      "Compare with two simple dynamic models: first-order ARX on two inputs, ridge regression on delayed inputs");
   command->add_option("--prediction", a->prediction, "Write time_s,measured,predicted over all rows to this CSV file")
       ->type_name("FILE");
   command->add_option("--model-out", a->model, "Write the model (spindrift-thermal-model JSON) to this file")
@@ -234,7 +234,7 @@ void addIso230(CLI::App& parent, CommandLine& line) {
   };
   auto a = std::make_shared<Arguments>();
   CLI::App* command =
-      addCommand(parent, line, "iso230-3", "Evaluate a thermal test as ISO 230-3 asks for it", [a](JobContext& job) {
+      addCommand(parent, line, "iso230-3", "Evaluate a thermal test according to ISO 230-3", [a](JobContext& job) {
         a->request.log = a->log;
         a->request.observations = a->observations;
         a->request.columns = splitList(a->columns);
@@ -252,7 +252,7 @@ void addIso230(CLI::App& parent, CommandLine& line) {
   command->add_option("--columns", a->columns,
                       "Displacements and tilts, separated by commas; default: all _um and _urad columns");
   command->add_option("--ambient", a->request.ambient, "Column of the ambient temperature (etve)");
-  command->add_option("--range", a->range, "Only these seconds of the log, such as one of several steps of speed")
+  command->add_option("--range", a->range, "Part of the log in s, such as one of several speed steps")
       ->type_name("FROM:TO");
   command
       ->add_option("--fraction", a->request.fraction,

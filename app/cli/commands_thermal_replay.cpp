@@ -56,7 +56,7 @@ void addReplay(CLI::App& parent, CommandLine& line) {
   CLI::App* command = addCommand(
       parent, line, "replay",
       "Replay a record with the self-optimising compensation: uncompensated, static and adaptive side by side, number "
-      "of on-machine measurements spent. Compensation = minus the predicted deviation; residual = recorded minus "
+      "of on-machine measurements used. Compensation = minus the predicted deviation; residual = recorded minus "
       "predicted, each in the sign of its column; a reduction is positive where the rms becomes smaller, negative "
       "where compensating makes it larger",
       [a](JobContext& job) {
@@ -83,13 +83,13 @@ void addReplay(CLI::App& parent, CommandLine& line) {
   command->add_option("--inputs", a->inputs, "Candidate inputs separated by commas, or auto")->capture_default_str();
   command->add_option("--limit", a->limits,
                       "Action control limit in the unit of the output: one number, or NAME=NUMBER,...; default: from "
-                      "measuring uncertainty and size of the errors in the setup");
+                      "measurement uncertainty and magnitude of the errors during setup");
   command
       ->add_option("--sigma", a->sigma,
                    "Standard uncertainty of one measurement; default: as evaluated, or from the scatter of the "
                    "column, which where values are sparse holds changes of the error too")
       ->check(positiveNumber());
-  command->add_option("--setup", a->setup_h, "Length of the setup in h")
+  command->add_option("--setup", a->setup_h, "Duration of the setup phase in h")
       ->check(positiveNumber())
       ->capture_default_str();
   command->add_option("--setup-interval", a->setup_interval_min, "Time between two measurements of the setup in min")

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// The number that says that there is none.
 #pragma once
 
 #include <limits>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Time for waiting and ages, s: from a clock that nobody sets.
 #pragma once
 
 #include <chrono>

@@ -29,10 +29,14 @@ constexpr double robust_efficiency = 0.95;
 /// p-value of chi-squared below which a model is called rejected.
 constexpr double rejection_level = 1e-3;
 
-std::vector<std::string> namesOf(const std::vector<int>& parameters) {
-  std::vector<std::string> names;
-  for (const int i : parameters) names.emplace_back(nine_parameter_names[static_cast<std::size_t>(i)]);
-  return names;
+/// For sentences: the names without their units.
+std::vector<std::string> symbolsOf(const std::vector<int>& parameters) {
+  std::vector<std::string> symbols;
+  for (const int i : parameters) {
+    const std::string_view name = nine_parameter_names[static_cast<std::size_t>(i)];
+    symbols.emplace_back(name.substr(0, std::min(name.find("_um"), name.find("_urad"))));
+  }
+  return symbols;
 }
 
 /// Gain of the weighted fit: x = G v. Weights act on the whitened rows through an inflated covariance.
@@ -481,7 +485,7 @@ NineParameterFit fitNineParameters(const ObservationSet& observations, const Nin
   } else {
     fit.message =
         fmt::format("the points and components that were fitted do not determine {}; the other parameters hold",
-                    joinedList(namesOf(fit.undetermined)));
+                    joinedList(symbolsOf(fit.undetermined)));
   }
   const NineParameterModel model = fit.model();
   for (NineParameterResidual& r : fit.residuals) {

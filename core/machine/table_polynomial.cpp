@@ -277,8 +277,9 @@ std::string orderText(const TableOrders& orders) {
     for (std::size_t c = 0; c < 3; ++c)
       if (orders[c] == order) components.emplace_back(toString(static_cast<Component>(c)));
     if (components.empty()) continue;
-    text += fmt::format("{}{} order in {}", text.empty() ? "" : ", ", order == 2 ? "second" : "third",
-                        joinedList(components));
+    if (!text.empty()) text += ", ";
+    text += order == 2 ? fmt::format("second order in {}", joinedList(components))
+                       : fmt::format("third order in {}", joinedList(components));
   }
   return text.empty() ? "the nine parameters" : text;
 }

@@ -72,7 +72,7 @@ struct PreparedModel {
 void noteLack(CompensationPlan& plan) {
   if (!(plan.lack_of_fit_um.maxCoeff() > 0.0)) return;
   plan.warnings.push_back(fmt::format(
-      "what the model does not describe ({:.2g}, {:.2g}, {:.2g} µm of X, Y, Z) is part of the uncertainty of "
+      "what the model does not describe (X {:.2g} µm, Y {:.2g} µm, Z {:.2g} µm) is part of the uncertainty of "
       "every correction.",
       plan.lack_of_fit_um.x(), plan.lack_of_fit_um.y(), plan.lack_of_fit_um.z()));
 }
@@ -124,7 +124,10 @@ PreparedModel prepareNineParameters(const ObservationSet& observations, const Co
   options.state = plan.state;
   const NineParameterFit fit = fitNineParameters(observations, options);
   if (fit.status != FitStatus::Converged) {
-    throw InputError(fmt::format("state {} cannot be compensated: {}", fit.state, fit.message));
+    throw InputError(
+        fmt::format("state {} cannot be compensated: {}. The nine-parameter model needs at least three points that are "
+                    "not on one line.",
+                    fit.state, fit.message));
   }
   plan.reference = fit.reference_state.empty() ? "zero" : "state " + fit.reference_state;
   plan.warnings = fit.warnings;

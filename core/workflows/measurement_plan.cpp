@@ -107,7 +107,7 @@ std::string PlannedItem::instruction() const {
   if (kind == PlannedKind::Scan) return fmt::format("scan {} as {}, starting at {:g} mm", artefact, state, y_mm);
   static const std::map<std::string, std::string> names{
       {"rotation", "rotation"}, {"x_axis", "along X"}, {"y_axis", "along Y"}, {"focus", "focus"}};
-  return fmt::format("{}, {} {}: x {:g}, y {:g}, z {:g} mm, spindle {:g} deg", fiducial, names.at(role), index,
+  return fmt::format("{}, {} {}: x {:g}, y {:g}, z {:g} mm, spindle {:g}°", fiducial, names.at(role), index,
                      position_mm.x(), position_mm.y(), position_mm.z(), spindle_deg);
 }
 

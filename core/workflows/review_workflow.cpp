@@ -254,7 +254,7 @@ ReviewPicture reviewOf(const ObservationSet& observations, const MachineDescript
                        const ReviewRequest& request, const ReviewPrediction* prediction) {
   ReviewPicture picture;
   picture.component = request.component;
-  picture.title = fmt::format("{} {}", request.state, toString(request.quantity));
+  picture.title = fmt::format("{}, {}", request.state, toString(request.quantity));
   picture.points = measuredPoints(observations, request.state);
   switch (request.quantity) {
     case ReviewQuantity::Measured:

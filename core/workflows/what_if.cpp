@@ -317,7 +317,7 @@ void WhatIf::addBars() {
       placed.front = &bar == &machine_.artefacts.front();
       placed.artefact.id = bar.id;
       placed.artefact.kind = bar.kind;
-      placed.artefact.pose = turns ? fmt::format("c = {:g} deg", c_deg) : pose == 0 ? "as it lies" : "turned by 90 deg";
+      placed.artefact.pose = turns ? fmt::format("c = {:g}°", c_deg) : pose == 0 ? "as it lies" : "turned by 90°";
       std::vector<DeviationQuery> features;
       for (std::size_t i = 0; i < bar.nominal_positions_mm.size(); ++i) {
         const Eigen::Vector3d at_c0 =

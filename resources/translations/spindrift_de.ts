@@ -5833,10 +5833,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Zustand {}</translation>
     </message>
     <message>
-        <source>state {} cannot be compensated: {}</source>
-        <translation>Zustand {} kann nicht kompensiert werden: {}</translation>
-    </message>
-    <message>
         <source>state {} has no displacement with a prediction; choose another state.</source>
         <translation>Zustand {} hat keine Verschiebung mit einer Vorhersage; einen anderen Zustand wählen.</translation>
     </message>
@@ -7185,10 +7181,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>was die Steuerung inzwischen enthielt, wird nicht wiederholt.</translation>
     </message>
     <message>
-        <source>what the model does not describe ({:.2g}, {:.2g}, {:.2g} µm of X, Y, Z) is part of the uncertainty of every correction.</source>
-        <translation>was das Modell nicht beschreibt ({:.2g}, {:.2g}, {:.2g} µm von X, Y, Z), ist Teil der Unsicherheit jeder Korrektur.</translation>
-    </message>
-    <message>
         <source>what was named could not be fitted</source>
         <translation>das Benannte war nicht anpassbar</translation>
     </message>
@@ -7595,10 +7587,6 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>{} has {} usable focus heights; at least 5 are needed.</source>
         <translation>{} hat {} verwendbare Fokushöhen; mindestens 5 sind nötig.</translation>
-    </message>
-    <message>
-        <source>{} has {}{} of the {} {} images it needs in {}</source>
-        <translation>{} hat {}{} der {} nötigen Bilder ({}) in {}</translation>
     </message>
     <message>
         <source>{} holds another compensation than was written.</source>
@@ -8293,10 +8281,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>{}, Antastung {}</translation>
     </message>
     <message>
-        <source>{}, {} {}: x {:g}, y {:g}, z {:g} mm, spindle {:g} deg</source>
-        <translation>{}, {} {}: x {:g}, y {:g}, z {:g} mm, Spindel {:g} deg</translation>
-    </message>
-    <message>
         <source>{}/current has no nextSequence.</source>
         <translation>{}/current hat kein nextSequence.</translation>
     </message>
@@ -8411,10 +8395,6 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>{}{} has not answered within {:.0f} s.</source>
         <translation>{}{} hat innerhalb von {:.0f} s nicht geantwortet.</translation>
-    </message>
-    <message>
-        <source>{}{} order in {}</source>
-        <translation>{}{} Ordnung in {}</translation>
     </message>
     <message>
         <source>1 attempt</source>
@@ -8687,10 +8667,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Kugelnormal</translation>
     </message>
     <message>
-        <source>c = {:g} deg</source>
-        <translation>c = {:g} deg</translation>
-    </message>
-    <message>
         <source>change of the room temperature</source>
         <translation>Änderung der Raumtemperatur</translation>
     </message>
@@ -8885,10 +8861,6 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>those that what-if --list lists</source>
         <translation>die von what-if --list aufgelisteten</translation>
-    </message>
-    <message>
-        <source>turned by 90 deg</source>
-        <translation>um 90 deg gedreht</translation>
     </message>
     <message>
         <source>version {} is not known; allowed: 1.</source>
@@ -9333,6 +9305,82 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>the surface has changed its shape, which leaves it uncertain by {:.0f} {}.</source>
         <translation>die Fläche hat ihre Form geändert; dadurch ist die Komponente nur auf {:.0f} {} bekannt.</translation>
+    </message>
+    <message>
+        <source>and</source>
+        <translation>und</translation>
+    </message>
+    <message>
+        <source>five</source>
+        <translation>fünf</translation>
+    </message>
+    <message>
+        <source>focus</source>
+        <translation>Fokus</translation>
+    </message>
+    <message>
+        <source>four</source>
+        <translation>vier</translation>
+    </message>
+    <message>
+        <source>one</source>
+        <translation>ein</translation>
+    </message>
+    <message>
+        <source>or</source>
+        <translation>oder</translation>
+    </message>
+    <message>
+        <source>second order in {}</source>
+        <translation>zweite Ordnung in {}</translation>
+    </message>
+    <message>
+        <source>spindle changed</source>
+        <translation>Spindel gewechselt</translation>
+    </message>
+    <message>
+        <source>state {} cannot be compensated: {}. The nine-parameter model needs at least three points that are not on one line.</source>
+        <translation>Zustand {} kann nicht kompensiert werden: {}. Das Neun-Parameter-Modell braucht mindestens drei Punkte, die nicht auf einer Geraden liegen.</translation>
+    </message>
+    <message>
+        <source>third order in {}</source>
+        <translation>dritte Ordnung in {}</translation>
+    </message>
+    <message>
+        <source>three</source>
+        <translation>drei</translation>
+    </message>
+    <message>
+        <source>turned by 90°</source>
+        <translation>um 90° gedreht</translation>
+    </message>
+    <message>
+        <source>two</source>
+        <translation>zwei</translation>
+    </message>
+    <message>
+        <source>what the model does not describe (X {:.2g} µm, Y {:.2g} µm, Z {:.2g} µm) is part of the uncertainty of every correction.</source>
+        <translation>Was das Modell nicht beschreibt (X {:.2g} µm, Y {:.2g} µm, Z {:.2g} µm), ist Teil der Unsicherheit jeder Korrektur.</translation>
+    </message>
+    <message>
+        <source>{} has none of the {} {} images it needs in {}</source>
+        <translation>{0} hat keines der {1} nötigen Bilder ({2}) in {3}</translation>
+    </message>
+    <message>
+        <source>{} has only {} of the {} {} images it needs in {}</source>
+        <translation>{0} hat nur {1} der {2} nötigen Bilder ({3}) in {4}</translation>
+    </message>
+    <message>
+        <source>{}, {} {}: x {:g}, y {:g}, z {:g} mm, spindle {:g}°</source>
+        <translation>{}, {} {}: x {:g}, y {:g}, z {:g} mm, Spindel {:g}°</translation>
+    </message>
+    <message>
+        <source>measured</source>
+        <translation>gemessen</translation>
+    </message>
+    <message>
+        <source>simulation</source>
+        <translation>Simulation</translation>
     </message>
 </context>
 <context>
@@ -10298,8 +10346,8 @@ endgültig fehlgeschlagen: {}</translation>
     <message numerus="yes">
         <source>Watching %1: %n files, %2 accepted. You may leave this page; capturing goes on.</source>
         <translation>
-            <numerusform>%1 wird überwacht: %n Datei, %2 angenommen. Sie können diese Seite verlassen; die Aufnahme läuft weiter.</numerusform>
-            <numerusform>%1 wird überwacht: %n Dateien, %2 angenommen. Sie können diese Seite verlassen; die Aufnahme läuft weiter.</numerusform>
+            <numerusform>Überwacht wird %1: %n Datei, %2 angenommen. Sie können diese Seite verlassen; die Aufnahme läuft weiter.</numerusform>
+            <numerusform>Überwacht wird %1: %n Dateien, %2 angenommen. Sie können diese Seite verlassen; die Aufnahme läuft weiter.</numerusform>
         </translation>
     </message>
 </context>
@@ -11633,7 +11681,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>Column</source>
-        <translation>Ständer</translation>
+        <translation>Spalte</translation>
     </message>
     <message>
         <source>Now</source>
@@ -12104,7 +12152,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>Column</source>
-        <translation>Ständer</translation>
+        <translation>Spalte</translation>
     </message>
     <message>
         <source>Data item</source>
@@ -17349,6 +17397,13 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
 </context>
 <context>
+    <name>spindrift::gui::Plot</name>
+    <message>
+        <source>%1 over %2</source>
+        <translation>%1 über %2</translation>
+    </message>
+</context>
+<context>
     <name>spindrift::gui::PreferencesDialog</name>
     <message>
         <source>As the system</source>
@@ -18012,7 +18067,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>Name, or empty to sign by hand</source>
-        <translation>Name oder leer für Unterschrift von Hand</translation>
+        <translation>Name (leer: von Hand)</translation>
     </message>
     <message>
         <source>Name of the operator</source>

@@ -231,7 +231,29 @@ class Catalogue {
         if (joined.known > best.known) best = std::move(joined);
       }
     }
+    if (best.known == 0 && english.size() <= longest_list) best = joinedNames(english, depth);
     return best;
+  }
+
+  /// "EX, EY and EZ": a list of names and values, whose word before the last is translated. Two words of a text in a
+  /// row are no name.
+  Rendered joinedNames(const QString& english, int depth) {
+    static const QRegularExpression words(QStringLiteral("[a-z]{3,} [a-z]{3,}"));
+    for (const auto& word : {QStringLiteral("and"), QStringLiteral("or")}) {
+      const QString joint = QLatin1Char(' ') + word + QLatin1Char(' ');
+      const qsizetype at = english.lastIndexOf(joint);
+      const auto translated = whole_.find(word);
+      if (at < 0 || translated == whole_.end()) continue;
+      const QString left = english.left(at);
+      const QString right = english.mid(at + joint.size());
+      const Rendered first = rendered(left, depth + 1);
+      const Rendered last = rendered(right, depth + 1);
+      if ((first.known == 0 && words.match(left).hasMatch()) || (last.known == 0 && words.match(right).hasMatch()))
+        continue;
+      return {first.text + QLatin1Char(' ') + translated->second + QLatin1Char(' ') + last.text,
+              first.known + word.size() + last.known};
+    }
+    return {};
   }
 
   struct Hash {

@@ -315,7 +315,9 @@ class QuietTable : public QTableView {
       if (c != stretch && !isColumnHidden(c))
         others.emplace_back(titleWidth(c), c == column ? wanted : contentWidth(c));
     }
-    const int room = viewport()->width() - titleWidth(stretch);
+    // Sentences need the room of a few words, or their cells are columns of syllables.
+    const int sentences = wordWrap() ? viewport()->width() * 2 / 5 : 0;
+    const int room = viewport()->width() - std::max(titleWidth(stretch), sentences);
     // The width to which columns are limited so that all of them fit, found from the widest down.
     int limit = wanted;
     const auto total = [&] {
@@ -340,8 +342,10 @@ class QuietTable : public QTableView {
   }
   void paintEvent(QPaintEvent* event) override {
     QTableView::paintEvent(event);
-    if (model() == nullptr || model()->rowCount() > 0) return;
+    if (model() == nullptr) return;
     QPainter painter(viewport());
+    for (const QRect& cut : cutRows()) painter.fillRect(cut, theme().surface);
+    if (model()->rowCount() > 0) return;
     painter.setFont(textFont(sizes::font_body));
     painter.setPen(theme().text_secondary);
     painter.drawText(viewport()->rect().adjusted(16, 8, -16, -8), Qt::AlignCenter | Qt::TextWordWrap,
@@ -349,6 +353,18 @@ class QuietTable : public QTableView {
   }
 
  private:
+  /// What is seen of rows that have no room for all of their height: rows of one height are shown whole or not at all.
+  [[nodiscard]] std::vector<QRect> cutRows() const {
+    std::vector<QRect> cut;
+    if (wordWrap() || verticalHeader()->count() < 2) return cut;
+    for (const int row : {rowAt(0), rowAt(viewport()->height() - 1)}) {
+      if (row < 0) continue;
+      const QRect place(0, rowViewportPosition(row), viewport()->width(), rowHeight(row));
+      const bool whole = place.top() >= 0 && place.bottom() < viewport()->height();
+      if (!whole && place.height() <= viewport()->height()) cut.push_back(place & viewport()->rect());
+    }
+    return cut;
+  }
   [[nodiscard]] int stretched() const {
     for (int c = 0; model() != nullptr && c < horizontalHeader()->count(); ++c) {
       if (!isColumnHidden(c) && horizontalHeader()->sectionResizeMode(c) == QHeaderView::Stretch) return c;
@@ -383,18 +399,28 @@ QTableView* makeTable(QAbstractItemModel* model, const QString& accessible_name,
   table->setEditTriggers(QAbstractItemView::NoEditTriggers);
   table->setTabKeyNavigation(false);
   table->setWordWrap(false);
-  table->setVerticalScrollMode(QAbstractItemView::ScrollPerPixel);
+  table->setVerticalScrollMode(QAbstractItemView::ScrollPerItem);  // whole rows at the top as well
   table->setHorizontalScrollMode(QAbstractItemView::ScrollPerPixel);
   table->verticalHeader()->hide();
   table->verticalHeader()->setDefaultSectionSize(36);
+  table->verticalHeader()->setMinimumSectionSize(36);
   table->setMinimumHeight(120);
   giveTableHabits(table);
+  // Narrower columns need more lines.
+  QObject::connect(
+      table->horizontalHeader(), &QHeaderView::sectionResized, table,
+      [table] {
+        if (table->wordWrap() && table->verticalHeader()->sectionResizeMode(0) == QHeaderView::ResizeToContents)
+          table->resizeRowsToContents();
+      },
+      Qt::QueuedConnection);
   return table;
 }
 
 QTableView* makeSentenceTable(QAbstractItemModel* model, const QString& accessible_name, const QString& empty_text) {
   QTableView* table = makeTable(model, accessible_name, empty_text);
   table->setWordWrap(true);
+  table->setVerticalScrollMode(QAbstractItemView::ScrollPerPixel);  // a sentence may be higher than the table
   table->horizontalHeader()->setSectionResizeMode(model->columnCount() - 1, QHeaderView::Stretch);
   table->verticalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
   return table;
@@ -452,12 +478,35 @@ namespace {
 class Tabs : public QTabWidget {
  public:
   [[nodiscard]] bool hasHeightForWidth() const override { return false; }
+  /// As high as the page that is shown needs to be; the others wait until it is their turn.
+  [[nodiscard]] QSize minimumSizeHint() const override {
+    const QSize all = QTabWidget::minimumSizeHint();
+    if (currentWidget() == nullptr) return all;
+    int highest = 0;
+    for (int i = 0; i < count(); ++i) highest = std::max(highest, leastHeight(*widget(i)));
+    return {all.width(), all.height() - highest + leastHeight(*currentWidget())};
+  }
+
+ protected:
+  /// What its page needs has changed: Qt's tabs keep that to themselves.
+  bool event(QEvent* event) override {
+    const bool handled = QTabWidget::event(event);
+    if (event->type() == QEvent::LayoutRequest) updateGeometry();
+    return handled;
+  }
+
+ private:
+  static int leastHeight(const QWidget& page) {
+    const int asked = page.minimumHeight() > 0 ? page.minimumHeight() : page.minimumSizeHint().height();
+    return std::max(0, asked);
+  }
 };
 
 }  // namespace
 
 QTabWidget* makeTabs() {
   auto* tabs = new Tabs;
+  QObject::connect(tabs, &QTabWidget::currentChanged, tabs, [tabs] { tabs->updateGeometry(); });
   tabs->setDocumentMode(true);
   tabs->tabBar()->setDrawBase(false);
   tabs->tabBar()->setExpanding(false);

@@ -55,8 +55,10 @@ void TableTitles::paintSection(QPainter* painter, const QRect& place, int sectio
   const Qt::Alignment alignment = own.isValid() ? Qt::Alignment(own.toInt()) : defaultAlignment();
   painter->setFont(titleFont());
   painter->setPen(theme().text_secondary);
-  painter->drawText(room, static_cast<int>(alignment | Qt::TextSingleLine),
-                    QFontMetrics(titleFont()).elidedText(title(section), Qt::ElideRight, room.width()));
+  const QFontMetrics metrics(titleFont());
+  QStringList lines = title(section).split(QLatin1Char('\n'));
+  for (QString& line : lines) line = metrics.elidedText(line, Qt::ElideRight, room.width());
+  painter->drawText(room, static_cast<int>(alignment), lines.join(QLatin1Char('\n')));
   painter->restore();
 }
 

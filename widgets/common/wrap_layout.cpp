@@ -95,7 +95,10 @@ QSize WrapLayout::minimumSize() const {
     if (!item->isEmpty()) size = size.expandedTo(item->minimumSize());
   }
   const QMargins margins = contentsMargins();
-  return size + QSize(margins.left() + margins.right(), margins.top() + margins.bottom());
+  size += QSize(margins.left() + margins.right(), margins.top() + margins.bottom());
+  // What lies between a page and this row (a splitter, tabs) asks for no height at a width: all lines that it has now.
+  if (width_ > 0) size.setHeight(std::max(size.height(), heightForWidth(width_)));
+  return size;
 }
 
 QSize WrapLayout::sizeHint() const {
@@ -111,8 +114,11 @@ QSize WrapLayout::sizeHint() const {
 }
 
 void WrapLayout::setGeometry(const QRect& area) {
+  const bool other_lines = width_ != area.width() && heightForWidth(width_) != heightForWidth(area.width());
+  width_ = area.width();
   QLayout::setGeometry(area);
   place(area, true);
+  if (other_lines) update();
 }
 
 }  // namespace spindrift::gui

@@ -9,7 +9,7 @@ namespace spindrift::gui {
 
 /// Places its items from left to right at the width each asks for, and starts a new line when one does not fit. An item
 /// is narrowed to its least width before it is moved to a line of its own, and an item whose policy expands takes what
-/// its line leaves. Items of a line are centred vertically.
+/// its line leaves. Items of a line are centred vertically. Its smallest height is that of the lines it has now.
 class WrapLayout : public QLayout {
  public:
   explicit WrapLayout(int spacing = 8);
@@ -34,6 +34,7 @@ class WrapLayout : public QLayout {
   [[nodiscard]] int widthOf(const QLayoutItem& item, int line_width) const;
 
   std::vector<QLayoutItem*> items_;
+  int width_ = 0;  ///< at which it was placed last; geometry() is forgotten whenever something changes
 };
 
 }  // namespace spindrift::gui

@@ -21,8 +21,10 @@ Page::Page(PageContext context, StepId step, QWidget* parent)
   auto* titles = new QVBoxLayout;
   titles->setSpacing(2);
   titles->addWidget(makeLabel(stepTitle(step), "pageTitle"));
-  instruction_ = makeLabel(stepInstruction(step), "instruction");
-  instruction_->setWordWrap(true);
+  auto* instruction = new WrappedLabel;
+  instruction->setProperty("role", QStringLiteral("instruction"));
+  instruction->setText(stepInstruction(step));
+  instruction_ = instruction;
   titles->addWidget(instruction_);
   head->addLayout(titles, 1);
   actions_ = new QHBoxLayout;
@@ -38,7 +40,7 @@ Page::Page(PageContext context, StepId step, QWidget* parent)
 }
 
 void Page::setInstruction(const QString& sentence) {
-  instruction_->setText(sentence);
+  static_cast<WrappedLabel*>(instruction_)->setText(sentence);
 }
 
 void Page::addAction(QWidget* widget) {

@@ -32,6 +32,23 @@ QVector<double> toVector(const std::vector<double>& values) {
   return {values.begin(), values.end()};
 }
 
+constexpr int most_ticks = 6;
+constexpr int tick_line = 26;     ///< px of an upright axis for one number
+constexpr int tick_advance = 64;  ///< px of a lying axis for one number
+constexpr int least_for_label = 24;
+
+/// The title of an axis within its length: in two lines where one is too long.
+QString fitted(const QString& title, const QFontMetrics& metrics, int length) {
+  if (length < least_for_label || metrics.horizontalAdvance(title) <= length) return title;
+  qsizetype best = -1;
+  for (qsizetype i = title.indexOf(QLatin1Char(' ')); i >= 0; i = title.indexOf(QLatin1Char(' '), i + 1)) {
+    if (best < 0 || std::abs(2 * i - title.size()) < std::abs(2 * best - title.size())) best = i;
+  }
+  if (best < 0) return metrics.elidedText(title, Qt::ElideRight, length);
+  return metrics.elidedText(title.left(best), Qt::ElideRight, length) + QLatin1Char('\n') +
+         metrics.elidedText(title.mid(best + 1), Qt::ElideRight, length);
+}
+
 /// Numbers on an axis with a true minus sign.
 class Ticker : public QCPAxisTicker {
  protected:
@@ -58,7 +75,7 @@ Plot::Plot(QWidget* parent) : QWidget(parent), plot_(new QCustomPlot(this)) {
   plot_->hide();
   for (QCPAxis* axis : {plot_->xAxis, plot_->yAxis}) {
     QSharedPointer<Ticker> ticker(new Ticker);
-    ticker->setTickCount(6);
+    ticker->setTickCount(most_ticks);
     axis->setTicker(ticker);
     axis->setNumberPrecision(6);
     axis->setNumberFormat(QStringLiteral("gb"));
@@ -80,6 +97,33 @@ void Plot::setAxes(const QString& x_title, const QString& y_title) {
   y_title_ = printedTitle(y_title);
   plot_->xAxis->setLabel(x_title_);
   plot_->yAxis->setLabel(y_title_);
+  nameForReaders();
+}
+
+/// What a screen reader says, unless the page has given a name of its own.
+void Plot::nameForReaders() {
+  if (!accessibleName().isEmpty() && accessibleName() != own_name_) return;
+  QStringList names;
+  for (const Series& s : series_) {
+    if (s.legend && !s.name.isEmpty()) names << s.name;
+  }
+  own_name_ = series_.empty() || y_title_.isEmpty() ? empty_title_ : tr("%1 over %2").arg(y_title_, x_title_);
+  setAccessibleName(own_name_);
+  setAccessibleDescription(names.join(QStringLiteral(", ")));
+}
+
+/// Titles and numbers of the axes for the room that they have.
+void Plot::fitAxes() {
+  // From the same beginning, whatever the size was before.
+  for (QCPAxis* axis : {plot_->xAxis, plot_->yAxis}) axis->ticker()->setTickCount(most_ticks);
+  plot_->xAxis->setLabel(x_title_);
+  plot_->yAxis->setLabel(y_title_);
+  layOut();
+  const QRect axes = plot_->axisRect()->rect();
+  plot_->yAxis->setLabel(fitted(y_title_, QFontMetrics(plot_->yAxis->labelFont()), axes.height()));
+  plot_->xAxis->setLabel(fitted(x_title_, QFontMetrics(plot_->xAxis->labelFont()), axes.width()));
+  plot_->yAxis->ticker()->setTickCount(std::clamp(axes.height() / tick_line, 2, most_ticks));
+  plot_->xAxis->ticker()->setTickCount(std::clamp(axes.width() / tick_advance, 2, most_ticks));
 }
 
 void Plot::setContent(std::vector<Series> series, std::vector<Span> spans) {
@@ -87,6 +131,7 @@ void Plot::setContent(std::vector<Series> series, std::vector<Span> spans) {
   spans_ = std::move(spans);
   marks_.clear();
   rebuild();
+  nameForReaders();
   showAll();
 }
 
@@ -157,6 +202,7 @@ std::vector<QRectF> Plot::markAreas() const {
 void Plot::setEmptyText(const QString& title, const QString& how) {
   empty_title_ = title;
   empty_how_ = how;
+  nameForReaders();
   update();
 }
 
@@ -337,7 +383,9 @@ void Plot::drawIfStale() {
   layOut();
   placeMarks();
   placeLegend();
-  placeMarks();  // A legend above the axes moves them.
+  fitAxes();  // a legend above the axes moves them
+  layOut();
+  placeMarks();
   const bool resized = plot_->geometry() != area;
   plot_->setGeometry(area);
   plot_->show();

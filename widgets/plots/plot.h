@@ -87,7 +87,7 @@ class Plot : public QWidget {
   [[nodiscard]] const std::vector<Series>& series() const { return series_; }
 
   [[nodiscard]] QSize sizeHint() const override { return {480, 280}; }
-  [[nodiscard]] QSize minimumSizeHint() const override { return {220, 180}; }
+  [[nodiscard]] QSize minimumSizeHint() const override { return {220, 150}; }
 
  Q_SIGNALS:
   void hovered(const QString& text);
@@ -111,6 +111,7 @@ class Plot : public QWidget {
   QCustomPlot* plot_;
   QString x_title_, y_title_;
   QString empty_title_, empty_how_;
+  QString own_name_;  ///< for screen readers, while the page gives none
   std::vector<Series> series_;
   std::vector<Span> spans_;
   struct Mark {
@@ -129,6 +130,8 @@ class Plot : public QWidget {
   void drawMark(Mark& mark);
   void placeMarks();
   void layOut();
+  void fitAxes();
+  void nameForReaders();
 
   bool spans_movable_ = false;
   std::optional<std::pair<std::size_t, bool>> dragged_edge_;

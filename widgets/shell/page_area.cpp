@@ -2,13 +2,14 @@
 #include "widgets/shell/page_area.h"
 
 #include <QEvent>
-#include <algorithm>
+#include <QLayout>
+#include <QScrollBar>
+#include <QTimer>
 
 namespace spindrift::gui {
 
 PageArea::PageArea(QWidget* page) {
   setFrameShape(QFrame::NoFrame);
-  setVerticalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   setFocusPolicy(Qt::NoFocus);
   setWidget(page);
   viewport()->setAutoFillBackground(false);
@@ -22,14 +23,29 @@ void PageArea::resizeEvent(QResizeEvent* event) {
 
 bool PageArea::eventFilter(QObject* watched, QEvent* event) {
   const bool handled = QScrollArea::eventFilter(watched, event);
-  if (watched == widget() && event->type() == QEvent::LayoutRequest) fit();
+  if (watched == widget() && event->type() == QEvent::LayoutRequest) {
+    fit();
+    // Sentences within it follow their width only now.
+    QTimer::singleShot(0, this, &PageArea::fit);
+  }
   return handled;
 }
 
 void PageArea::fit() {
   if (widget() == nullptr) return;
-  const int width = std::max(viewport()->width(), widget()->minimumSizeHint().width());
-  widget()->resize(width, viewport()->height());
+  // A page that has not heard of a change yet tells what was.
+  if (QLayout* layout = widget()->layout()) layout->activate();
+  const QSize least = widget()->minimumSizeHint();
+  QSize room = maximumViewportSize();
+  // A bar at one side takes from the other.
+  const int bar = verticalScrollBar()->sizeHint().width();
+  bool down = least.height() > room.height();
+  const bool sideways = least.width() > room.width() - (down ? bar : 0);
+  down = down || least.height() > room.height() - (sideways ? bar : 0);
+  setHorizontalScrollBarPolicy(sideways ? Qt::ScrollBarAlwaysOn : Qt::ScrollBarAlwaysOff);
+  setVerticalScrollBarPolicy(down ? Qt::ScrollBarAlwaysOn : Qt::ScrollBarAlwaysOff);
+  room -= QSize(down ? bar : 0, sideways ? bar : 0);
+  widget()->resize(room.expandedTo(least));
 }
 
 bool PageStack::holds(const QWidget* page) const {

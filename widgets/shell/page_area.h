@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The place of the pages. A page that is wider than the window scrolls sideways: nothing is cut or lies over another.
+// The place of the pages. A page fills it; one that needs more room scrolls: nothing is cut, squeezed or lies over
+// another.
 //
-// Pages fill the height, however much they hold: Qt would ask every page that was ever shown for its smallest size and
-// its height at every width whenever one sentence of one page changes.
+// What a page needs is its own smallest size, asked of the page that is shown: Qt would ask every page that was ever
+// shown for its smallest size and its height at every width whenever one sentence of one page changes.
 #pragma once
 
 #include <QScrollArea>

@@ -144,6 +144,25 @@ QRectF paintColourBar(QPainter& painter, const QRectF& area, const ColourScale& 
   return panel;
 }
 
+QStringList wrappedNotes(const QStringList& lines, double room) {
+  const QFontMetricsF metrics(textFont(sizes::font_secondary));
+  QStringList out;
+  for (const QString& line : lines) {
+    QString part;
+    for (const QString& word : line.split(QLatin1Char(' '))) {
+      const QString longer = part.isEmpty() ? word : part + QLatin1Char(' ') + word;
+      if (!part.isEmpty() && metrics.horizontalAdvance(longer) > room) {
+        out << part;
+        part = word;
+      } else {
+        part = longer;
+      }
+    }
+    out << metrics.elidedText(part, Qt::ElideRight, room);
+  }
+  return out;
+}
+
 QRectF notesPanel(const QStringList& lines, double room) {
   if (lines.isEmpty()) return {};
   const QFontMetricsF metrics(textFont(sizes::font_secondary));

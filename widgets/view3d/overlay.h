@@ -15,6 +15,8 @@ namespace spindrift::gui {
 /// Colour bar with unit and round ticks: standing at the right edge, or lying at the bottom right. Returns the
 /// rectangle it took.
 QRectF paintColourBar(QPainter& painter, const QRectF& area, const ColourScale& scale, bool lying = false);
+/// Notes in as many lines as `room` (px) asks for.
+[[nodiscard]] QStringList wrappedNotes(const QStringList& lines, double room);
 /// The panel at the top left with some lines, none wider than `room`; empty without lines.
 [[nodiscard]] QRectF notesPanel(const QStringList& lines, double room);
 /// Three short axes with their names at the bottom left.

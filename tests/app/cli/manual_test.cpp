@@ -134,7 +134,8 @@ TEST(Manual, HoldsEveryEffectWithItsFigureAndEveryCommand) {
   const auto holds = [&](const std::string& part) { return text.find(part) != std::string::npos; };
   for (const Effect& effect : everyEffect()) EXPECT_TRUE(holds("shape of " + escapedXml(effect.id) + "<")) << effect.id;
   for (const char* part : {"<h2>Microscope and coded fiducials</h2>", "<h2>Glossary</h2>", "<h3>thermal replay</h3>",
-                           "<h3>manual</h3>", "<td>EC0Y_urad</td>", "<pre>"})
+                           "<h3>manual</h3>", "<td>EC0Y_urad</td>", "<pre>", "<h2>Files</h2>",
+                           "A file is complete when it has not changed for this time in s (default: 1)"})
     EXPECT_TRUE(holds(part)) << part;
   const std::string pdf = (folder / "manual.pdf").string();
   ASSERT_EQ(runCli({"manual", "--out", pdf}).status, 0);

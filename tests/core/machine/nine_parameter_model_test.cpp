@@ -186,9 +186,7 @@ TEST(NineParameterModel, ThreePointsOnALineNameWhatIsNotDetermined) {
   addState(set, "M1", line, truth, constants, 0.3, 0.8, random, false);
   const NineParameterFit fit = fitNineParameters(set, {.state = "M1", .points = {}});
   EXPECT_EQ(fit.status, FitStatus::Degenerate);
-  for (const char* name : {"EX_um", "EC0Y_urad", "EY_um", "alpha_Y_um_per_m", "EZ_um", "EA_urad"}) {
-    EXPECT_THAT(fit.message, HasSubstr(name));
-  }
+  EXPECT_THAT(fit.message, HasSubstr("do not determine EX, EY, EZ, EA, EC0Y and alpha_Y;"));
   for (const int i : {4, 5, 7}) {  // EB, EC, alphaX hold
     EXPECT_TRUE(fit.determined(i)) << i;
     EXPECT_NEAR(fit.parameters(i), truth(i), 1e-6);

@@ -95,7 +95,7 @@ TEST(WhatIf, AWarmScrewMakesPartAndBarTooLong) {
   for (const WhatIfArtefact& artefact : answer.artefacts) {
     if (artefact.kind != "hole_bar") continue;
     // At 0 and 180 degrees along X, at 90 and 270 across it.
-    const bool along = artefact.pose == "c = 0 deg" || artefact.pose == "c = 180 deg";
+    const bool along = artefact.pose == "c = 0°" || artefact.pose == "c = 180°";
     EXPECT_NEAR(artefact.along_um_per_m.value(), along ? 46.0 : 0.0, 1e-6) << artefact.pose;
     ++bars;
   }

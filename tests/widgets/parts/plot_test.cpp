@@ -10,6 +10,7 @@
 #include "core/base/csv.h"
 #include "tests/support/temp_folder.h"
 #include "widgets/image_view/image_view.h"
+#include "widgets/plots/qcustomplot_header.h"
 
 namespace spindrift::gui {
 namespace {
@@ -42,6 +43,29 @@ TEST(Plot, ExportsPngSvgPdfAndCsv) {
   ASSERT_TRUE(svg.open(QIODevice::ReadOnly));
   EXPECT_TRUE(svg.readAll().contains("<svg"));
   EXPECT_EQ(plot.csv().count(QLatin1Char('\n')), 101);
+}
+
+/// A title in two lines and fewer numbers where there is less room.
+TEST(Plot, AxesSayAsMuchAsTheyHaveRoomFor) {
+  Plot plot;
+  plot.setAxes(QStringLiteral("Time / h"), QStringLiteral("Deviation of the point F1 / um"));
+  plot.setContent({ramp()});
+  plot.show();
+  const auto shown = [&plot](const QSize& size) {
+    plot.resize(size);
+    plot.grab();
+    auto* inner = plot.findChild<QCustomPlot*>();
+    return std::pair(inner->yAxis->label(), inner->yAxis->tickVector().size());
+  };
+  const auto high = shown({500, 400});
+  EXPECT_EQ(high.first, QStringLiteral("Deviation of the point F1 / µm"));
+  const auto low = shown({500, 170});
+  EXPECT_EQ(low.first.count(QLatin1Char('\n')), 1) << low.first.toStdString();
+  EXPECT_LT(low.second, high.second);
+  const QFontMetrics metrics(plot.findChild<QCustomPlot*>()->yAxis->labelFont());
+  for (const QString& line : low.first.split(QLatin1Char('\n')))
+    EXPECT_LE(metrics.horizontalAdvance(line), plot.findChild<QCustomPlot*>()->axisRect()->height());
+  EXPECT_EQ(plot.accessibleName(), QStringLiteral("Deviation of the point F1 / µm over Time / h"));
 }
 
 TEST(Plot, NamesOfSeriesAreTextInTheTable) {

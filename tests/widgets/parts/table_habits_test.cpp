@@ -71,6 +71,32 @@ class TableHabitsTest : public ::testing::Test {
   std::unique_ptr<QTableView> table_;
 };
 
+// Six rows of 36 px in a table that has room for two and two thirds of them.
+TEST_F(TableHabitsTest, ShowsWholeRowsOnly) {
+  /// First and last line of pixels with anything but the ground.
+  const auto seen = [this] {
+    QCoreApplication::processEvents();
+    const QImage picture = table_->viewport()->grab().toImage();
+    const QRgb ground = picture.pixel(picture.width() - 3, picture.height() / 2);
+    std::pair<int, int> lines{-1, -1};
+    for (int y = 0; y < picture.height(); ++y) {
+      for (int x = 0; x < picture.width(); ++x) {
+        if (picture.pixel(x, y) == ground) continue;
+        if (lines.first < 0) lines.first = y;
+        lines.second = y;
+      }
+    }
+    return lines;
+  };
+  table_->setMinimumHeight(0);
+  table_->resize(500, table_->horizontalHeader()->height() + 36 * 2 + 24);
+  EXPECT_LT(seen().second, 36 * 2) << "the third has no room";
+  EXPECT_GT(seen().second, 36);
+  table_->scrollToBottom();
+  EXPECT_GE(seen().first, 24) << "neither has the one above the last two";
+  EXPECT_GT(seen().second, 24 + 36);
+}
+
 TEST_F(TableHabitsTest, AClickSortsNumbersAsNumbersAndAThirdOneGoesBack) {
   const QStringList as_given = shown(1);
   clickHeader(1);

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Every control of every page of every demo, and of the windows beside them, is reached with the Tab key alone, and
-// nothing keeps the focus for itself.
+// Every control of every page of every demo, and of the windows beside them, is reached with the Tab key alone, nothing
+// keeps the focus for itself, and a screen reader has a name for each control, plot, image and 3D view.
 #include <gtest/gtest.h>
 
 #include <QAbstractButton>
 #include <QAbstractItemView>
 #include <QAbstractSlider>
 #include <QAbstractSpinBox>
+#include <QAccessible>
 #include <QButtonGroup>
 #include <QComboBox>
 #include <QLineEdit>
@@ -20,6 +21,7 @@
 
 #include "tests/widgets/pages/story_support.h"
 #include "widgets/common/parts.h"
+#include "widgets/image_view/image_view.h"
 #include "widgets/jobs/activity_dialog.h"
 #include "widgets/pages/compensate/closed_loop_page.h"
 #include "widgets/pages/discrepancy/discrepancy_page.h"
@@ -27,10 +29,13 @@
 #include "widgets/pages/plant/plant_page.h"
 #include "widgets/pages/teaching/exercise_dialog.h"
 #include "widgets/pages/teaching/what_if_window.h"
+#include "widgets/plots/plot.h"
+#include "widgets/plots/surface_plot.h"
 #include "widgets/shell/demo.h"
 #include "widgets/shell/notes_dialog.h"
 #include "widgets/shell/preferences_dialog.h"
 #include "widgets/shell/step_list.h"
+#include "widgets/view3d/view3d.h"
 
 namespace spindrift::gui {
 namespace {
@@ -50,6 +55,17 @@ bool isPart(const QWidget* widget, const QWidget* page) {
   for (const QWidget* w = widget->parentWidget(); w != nullptr && w != page; w = w->parentWidget())
     if (isControl(w)) return true;
   return false;
+}
+
+bool isView(const QWidget* widget) {
+  return qobject_cast<const Plot*>(widget) != nullptr || qobject_cast<const SurfacePlot*>(widget) != nullptr ||
+         qobject_cast<const ImageView*>(widget) != nullptr || qobject_cast<const View3D*>(widget) != nullptr;
+}
+
+/// What a screen reader says first: the name that was given, the text of a button, the label that belongs to a field.
+QString saidOf(QWidget* widget) {
+  QAccessibleInterface* said = QAccessible::queryAccessibleInterface(widget);
+  return said == nullptr ? QString() : said->text(QAccessible::Name).trimmed();
 }
 
 std::string nameOf(const QWidget* widget) {
@@ -95,6 +111,17 @@ class KeyboardTest : public StoryTest {
     return false;
   }
 
+  void expectAllNamed(const std::string& where, const QWidget& window) {
+    for (QWidget* widget : window.findChildren<QWidget*>()) {
+      if (!widget->isVisible() || widget->window() != &window || isPart(widget, &window)) continue;
+      if (!isView(widget) && !isControl(widget)) continue;
+      if (isView(widget)) ++views_;
+      EXPECT_FALSE(saidOf(widget).isEmpty())
+          << where << ": a screen reader has no name for " << nameOf(widget) << " in "
+          << (widget->parentWidget() != nullptr ? nameOf(widget->parentWidget()) : std::string("nothing"));
+    }
+  }
+
   /// In the window of `from`, which is a control.
   void expectAllReached(const std::string& where, QWidget* from) {
     const QWidget* window = from->window();
@@ -106,6 +133,7 @@ class KeyboardTest : public StoryTest {
       ++controls_;
       EXPECT_TRUE(reached(seen, control)) << where << ": " << nameOf(control);
     }
+    expectAllNamed(where, *window);
   }
   void expectAllReached(const std::string& where) {
     expectAllReached(where, window_->stepList()->button(StepId::Machine));
@@ -127,6 +155,7 @@ class KeyboardTest : public StoryTest {
   }
 
   int controls_ = 0;
+  int views_ = 0;
 };
 
 TEST_F(KeyboardTest, ReachesEveryControlOfEveryPage) {
@@ -159,6 +188,7 @@ TEST_P(KeyboardOfDemo, ReachesEveryControlOfItsPages) {
   ASSERT_TRUE(QTest::qWaitForWindowActive(window_.get()));
   walk(QString::fromStdString(GetParam()), [this](const std::string& what) { expectAllReached(what); });
   EXPECT_GT(controls_, 200) << "the pages were there";
+  EXPECT_GT(views_, 5) << "the plots and views were there";
 }
 
 INSTANTIATE_TEST_SUITE_P(Demos, KeyboardOfDemo, ::testing::ValuesIn([] {
@@ -200,6 +230,15 @@ TEST_F(KeyboardTest, ReachesEveryControlOfWindowsBesideTheSteps) {
   window_->openLiveCompensation();
   expectAllReachedIn("live loop", window_->liveCompensation());
   EXPECT_GT(controls_, 100);
+}
+
+TEST_F(KeyboardTest, SeesAControlWithoutAName) {
+  open(writeStoryCampaign(folder_, Hidden::SpindleGrowth), StepId::Model);
+  auto* view = window_->currentPage()->findChild<View3D*>();
+  ASSERT_NE(view, nullptr);
+  EXPECT_FALSE(saidOf(view).isEmpty());
+  view->setAccessibleName(QString());
+  EXPECT_TRUE(saidOf(view).isEmpty());
 }
 
 TEST_F(KeyboardTest, SeesAControlThatIsPassedOver) {

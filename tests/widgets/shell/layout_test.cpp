@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Every page of every demo fits the window in every language: at 1440 x 900 with the help open, and on a small screen
-// of 1280 x 800 without it, nothing is pushed out sideways, no text is cut, one button at most is the primary one, and
-// that which runs the step is in sight.
+// of 1280 x 800 without it, nothing is pushed out sideways, no text is cut, no plot squeezed, one button at most is the
+// primary one, and that which runs the step is in sight.
 #include <gtest/gtest.h>
 
 #include <QAction>
@@ -13,6 +13,7 @@
 #include <QScrollBar>
 #include <QSettings>
 #include <QSplitter>
+#include <QTest>
 #include <QTextDocumentFragment>
 #include <QVBoxLayout>
 #include <set>
@@ -22,7 +23,9 @@
 #include "widgets/common/languages.h"
 #include "widgets/common/parts.h"
 #include "widgets/common/wrap_layout.h"
+#include "widgets/plots/plot.h"
 #include "widgets/shell/help_panel.h"
+#include "widgets/view3d/view3d.h"
 
 namespace spindrift::gui {
 namespace {
@@ -69,6 +72,31 @@ QStringList cutTexts(const QWidget& root) {
   return cut;
 }
 
+/// Plots and 3D views that have less height than they need to be read.
+QStringList squeezedViews(const QWidget& root) {
+  QStringList squeezed;
+  for (const QWidget* w : root.findChildren<QWidget*>()) {
+    if (!w->isVisible() || (qobject_cast<const Plot*>(w) == nullptr && qobject_cast<const View3D*>(w) == nullptr))
+      continue;
+    // A title that goes on in a second line may take the height of that line.
+    const int line = w->fontMetrics().lineSpacing() + 2;
+    const int least = (w->minimumHeight() > 0 ? w->minimumHeight() : w->minimumSizeHint().height()) - line;
+    if (w->height() >= least) continue;
+    QString around;  // where the room was lost
+    for (const QWidget* p = w->parentWidget(); p != nullptr && p != &root; p = p->parentWidget())
+      around += QStringLiteral("\n  %1 %2 of %3")
+                    .arg(QLatin1String(p->metaObject()->className()))
+                    .arg(p->height())
+                    .arg(p->minimumSizeHint().height());
+    squeezed << QStringLiteral("%1 is %2 px high, needs %3%4")
+                    .arg(w->accessibleName())
+                    .arg(w->height())
+                    .arg(least)
+                    .arg(around);
+  }
+  return squeezed;
+}
+
 /// Demo and language.
 class LayoutTest : public StoryTest, public ::testing::WithParamInterface<std::tuple<const char*, const char*>> {
  protected:
@@ -94,6 +122,10 @@ class LayoutTest : public StoryTest, public ::testing::WithParamInterface<std::t
     ASSERT_NE(area, nullptr);
     // Longer words beside the help: such a page may scroll sideways.
     const bool may_scroll = window_->help()->isVisible() && currentLanguage() != QLatin1String("en");
+    EXPECT_GE(page->height(), page->minimumSizeHint().height()) << what << ": squeezed";
+    for (const QString& squeezed : squeezedViews(*page)) {
+      if (told_.insert(squeezed).second) ADD_FAILURE() << what << ": " << squeezed.toStdString();
+    }
     EXPECT_TRUE(may_scroll || page->minimumSizeHint().width() <= area->viewport()->width())
         << what << ": " << page->minimumSizeHint().width() << " of " << area->viewport()->width() << whatIsWide(*page);
     const QPushButton* button = page->primaryButton();
@@ -121,7 +153,7 @@ TEST_P(LayoutTest, NothingIsPushedOutSidewaysOrCut) {
     for (const bool help : {true, false}) {
       window_->resize(help ? QSize(1440, 900) : QSize(1280, 800));
       setHelp(help);
-      QCoreApplication::processEvents();
+      QTest::qWait(50);  // lines of sentences follow the width
       expectFits(what + (help ? " at 1440 with the help" : " at 1280 without help"));
     }
   });
@@ -218,6 +250,8 @@ TEST(WrapLayout, GoesOnInTheNextLineAndNeverIsWiderThanItsWidestItem) {
   QCoreApplication::processEvents();
   EXPECT_EQ(items[2]->geometry().center().y(), items[0]->geometry().center().y())
       << "items of a line share their middle";
+  EXPECT_EQ(row->minimumSize().height(), row->heightForWidth(320)) << "whoever asks for no width hears of all lines";
+  EXPECT_EQ(box.minimumSizeHint().height(), row->heightForWidth(320));
   EXPECT_EQ(items[3]->x(), 0);
   EXPECT_GT(items[3]->y(), items[0]->geometry().bottom());
   items[1]->hide();

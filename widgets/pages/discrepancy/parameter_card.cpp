@@ -110,7 +110,10 @@ void ParameterCard::resizeEvent(QResizeEvent* event) {
 
 void ParameterCard::arrange() {
   // In a narrow card what a parameter is stands in the tip of its name.
-  table_->setColumnHidden(column_what, done_ && width() < width_for_words);
+  const bool hidden = done_ && width() < width_for_words;
+  table_->setColumnHidden(column_what, hidden);
+  // One column takes what the others leave, so that none is pushed out.
+  table_->horizontalHeader()->setSectionResizeMode(0, hidden ? QHeaderView::Stretch : QHeaderView::ResizeToContents);
   // Words wrap by the width that the columns have now.
   table_->resizeRowsToContents();
 }

@@ -410,7 +410,7 @@ void SimulationPanel::putInto(const QString& folder) {
 QString SimulationPanel::titleOf(const FoundEffect& effect) const {
   for (const SimulatorParameter& p : opened_.parameters)
     if (p.id() == effect.id)
-      return p.what == p.name ? fromCore(p.name) : tr("%1 (%2)").arg(fromCore(p.what), fromCore(p.name));
+      return p.what == p.name ? fromCore(p.name) : tr("%1 (%2)").arg(coreSentence(p.what), fromCore(p.name));
   return !effect.title.empty() ? fromCore(effect.title) : effectTitle(effect.id);
 }
 

@@ -389,7 +389,7 @@ void NineParameterPage::showFit() {
   rms_validation_->set(rms(f.rms_validation_um),
                        f.rms_validation_um ? tr("over the other points") : tr("uncheck a point to validate"));
   condition_->set(decimalText(f.condition_number, 'g', 3),
-                  f.p_value ? tr("χ² test: %1").arg(QString::fromStdString(pValueText(*f.p_value)))
+                  f.p_value ? tr("χ² test: %1").arg(shownNumbers(QString::fromStdString(pValueText(*f.p_value))))
                             : tr("no degrees of freedom left"));
   showComparison();
   showField();

@@ -106,7 +106,7 @@ MachinePage::MachinePage(PageContext page_context, QWidget* parent)
   card->body()->addWidget(axes_, 2);
   card->body()->addWidget(makeLabel(tr("Measuring points"), "sectionTitle"));
   points_ = makeEditor({tr("Point"), tr("Kind"), tr("x / mm"), tr("y / mm"), tr("z / mm")}, tr("Measuring points"));
-  points_->setMinimumHeight(84);
+  points_->setMinimumHeight(150);
   card->body()->addWidget(points_, 3);
   auto* point_buttons = new WrapLayout;
   auto* add = makeButton(tr("Add point"), "plus");

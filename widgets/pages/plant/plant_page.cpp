@@ -178,6 +178,7 @@ PlantPage::PlantPage(SessionModel& session, JobRunner& jobs, QWidget* parent)
   event_note_ = new QLineEdit;
   event_note_->setAccessibleName(tr("Note on the event"));
   event_note_->setPlaceholderText(tr("A few words"));
+  event_note_->setMinimumWidth(140);
   enter_event_ = makeButton(tr("Enter event"), "plus");
   enter_event_->setToolTip(tr("What was done to the selected machine; limits of its trends begin anew after it"));
   enter_event_->setEnabled(false);

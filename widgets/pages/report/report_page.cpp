@@ -84,6 +84,8 @@ ReportPage::ReportPage(PageContext page_context, QWidget* parent)
   section_table_ =
       makeTable(sections_, tr("Sections of the report"), tr("Sections appear when the report is written."));
   stretchColumn(section_table_, 0);
+  section_table_->setWordWrap(true);  // titles of some languages are long
+  section_table_->verticalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
   left->body()->addWidget(section_table_, 1);
 
   auto* work = new QWidget;

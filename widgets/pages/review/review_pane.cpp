@@ -210,7 +210,8 @@ void ReviewPane::show(const ReviewPicture& picture, const std::optional<double>&
   }
   view_->setPoints(std::move(points));
   view_->setArrows(std::move(shown_arrows), exaggeration);
-  view_->setCaption(fromCore(picture.title + ", " + std::string(toString(picture.component))) +
+  view_->setCaption(coreSentence(picture.title) + QStringLiteral(", ") +
+                    fromCore(std::string(toString(picture.component))) +
                     (picture.message.empty() ? QString() : QLatin1Char('\n') + coreSentence(picture.message)));
 }
 

@@ -198,7 +198,7 @@ void ArtefactDesigner::showDesigns(const ArtefactDesign& rigid, const ArtefactDe
       row.id = name + fromCore(w.name);
       Cell sigma{lengthText(w.sigma_um)};
       sigma.right = true;
-      row.cells = {{name}, {fromCore(w.name)}, sigma};
+      row.cells = {{name}, {shownNumbers(fromCore(w.name))}, sigma};
       rows.push_back(std::move(row));
     }
   }

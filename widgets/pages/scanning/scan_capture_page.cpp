@@ -74,6 +74,7 @@ ScanCapturePage::ScanCapturePage(PageContext page_context, QWidget* parent)
   profile_->setAxes(tr("Along the profile / mm"), tr("Height / mm"));
   profile_->setEmptyText(tr("A profile will appear here"), tr("Choose a scan in the list."));
   auto* views = new QHBoxLayout;
+  for (View3D* view : {before_view_, view_}) view->setMinimumHeight(150);  // the profile below needs room as well
   views->addWidget(before_view_, 1);
   views->addWidget(view_, 1);
   right->body()->addLayout(views, 5);

@@ -65,7 +65,7 @@ TEST_F(Review, StatesStandSideBySideWithOneScaleAndOneCamera) {
   // Pane 3: the residual of a model that holds; pane 4: this state minus M1, which is two thirds of M3.
   for (const ReviewPoint& p : page->pane(3)->picture().points)
     EXPECT_LT(std::abs(p.components.at(Component::EX).value), 0.05);
-  EXPECT_EQ(page->pane(4)->picture().title, "M1 measured minus M3 measured");
+  EXPECT_EQ(page->pane(4)->picture().title, "M1, measured minus M3, measured");
   ASSERT_EQ(page->pane(4)->picture().points.size(), 9U) << page->pane(4)->picture().message;
   EXPECT_NEAR(page->pane(4)->picture().points[0].components.at(Component::EX).value, -2.0 * 3.0 * 1.1, 1e-3);
   EXPECT_NEAR(page->pane(4)->picture().points[0].components.at(Component::EX).sigma, 0.4, 1e-3);
@@ -122,11 +122,11 @@ TEST_F(Review, PlaybackRunsThroughTheStates) {
   auto* page = go<ReviewPage>(StepId::Review);
   page->slider()->setValue(1);
   ASSERT_TRUE(waitForJobs(*window_, 30));
-  EXPECT_EQ(page->pane(1)->picture().title, "M1 measured");
+  EXPECT_EQ(page->pane(1)->picture().title, "M1, measured");
   page->pane(2)->choose(PaneContent::Measured, QStringLiteral("M3"));
   QTest::mouseClick(page->primaryButton(), Qt::LeftButton);
-  ASSERT_TRUE(QTest::qWaitFor([&] { return page->pane(1)->picture().title == "M2 measured"; }, 8000));
-  EXPECT_EQ(page->pane(2)->picture().title, "M3 measured") << "a fixed state stays";
+  ASSERT_TRUE(QTest::qWaitFor([&] { return page->pane(1)->picture().title == "M2, measured"; }, 8000));
+  EXPECT_EQ(page->pane(2)->picture().title, "M3, measured") << "a fixed state stays";
   QTest::mouseClick(page->primaryButton(), Qt::LeftButton);
 }
 
@@ -173,7 +173,7 @@ TEST_F(Review, TheSimulationStandsBesideTheMeasurement) {
   page->pane(4)->choose(PaneContent::CompletedLeft);
   ASSERT_TRUE(waitForJobs(*window_, 30));
   EXPECT_NEAR(page->pane(2)->picture().points[0].components.at(Component::EX).value, 9.0, 1e-9);
-  EXPECT_EQ(page->pane(2)->picture().title, "M3 simulation");
+  EXPECT_EQ(page->pane(2)->picture().title, "M3, simulation");
   EXPECT_NEAR(page->pane(3)->picture().points[0].components.at(Component::EX).value, 0.9, 1e-3);
   EXPECT_FALSE(page->pane(4)->picture().message.empty()) << "nothing was searched yet, and the pane says so";
   page->pane(4)->choose(PaneContent::SimulationLeft, QStringLiteral("M1"));
