@@ -471,6 +471,15 @@ Judgement judge(const ResidualProblem& problem, const EffectSearch& search, cons
     out.names.erase(out.names.begin() + static_cast<std::ptrdiff_t>(k));
     out.named = search.solve(terms);
   };
+  // One that may as well be another that is named: a second course of the same cause, not known to be a second cause.
+  for (std::size_t k = out.names.size(); k-- > 0;) {
+    const std::vector<std::string>& rivals = out.names[k].rivals;
+    const auto same = std::find_if(out.names.begin(), out.names.end(), [&](const NamedEffect& other) {
+      return std::find(rivals.begin(), rivals.end(), other.id) != rivals.end();
+    });
+    if (out.names[k].forced || same == out.names.end()) continue;
+    takeBack(k, fmt::format("{}, which is named, in a course of its own would explain it as well", same->id));
+  }
   // What stands only beside those that were taken out has nothing to stand on.
   while (terms.size() < fit.terms.size()) {
     std::size_t worst = terms.size();

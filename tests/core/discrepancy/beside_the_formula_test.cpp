@@ -47,6 +47,24 @@ TEST(BesideTheFormula, ARotaryTableThatDriftsAndTiltsALittleHasOneCause) {
   EXPECT_GE(one, 4);
 }
 
+TEST(BesideTheFormula, ACauseInASecondCourseGetsNoSecondName) {
+  // The room drifts along X and its sensor is not in the log. Beside it stood a second name that the same drift, in a
+  // course of its own, could have had as well.
+  for (const std::uint64_t number : {20U, 50U, 69U}) {
+    StudyOptions study;
+    study.kind = StudyKind::Confounded;
+    study.strength = 5.0;
+    study.turn = 98'201 * 7 + 24 * 11 + number;
+    const StudyCase made = studyCase(study, 98'201'240'000ULL + number);
+    ASSERT_EQ(made.hidden.front(), "ambient.drift.x");
+    JobContext job;
+    DiscrepancyOptions options;
+    options.suggest = false;
+    const DiscrepancyResult result = findDiscrepancy(study::inputOf(simulateStudy(made, job).campaign), options, job);
+    EXPECT_EQ(namesIn(result), "ambient.drift.x") << "at number " << number;
+  }
+}
+
 TEST(BesideTheFormula, WhatADriftMovesAlongAnotherAxisIsToldAndGetsNoName) {
   int alone = 0;
   int told = 0;
