@@ -9382,6 +9382,10 @@ endgültig fehlgeschlagen: {}</translation>
         <source>simulation</source>
         <translation>Simulation</translation>
     </message>
+    <message>
+        <source>{}, which is named, in a course of its own would explain it as well</source>
+        <translation>{}, bereits benannt, würde es mit einem eigenen Verlauf ebenso erklären</translation>
+    </message>
 </context>
 <context>
     <name>help</name>

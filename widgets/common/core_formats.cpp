@@ -2195,6 +2195,7 @@ const char* const formats[] = {
     QT_TRANSLATE_NOOP("core", "{}, line {}: {{{{{}}}}} has no finite value with {}."),
     QT_TRANSLATE_NOOP("core", "{}, such as {}"),
     QT_TRANSLATE_NOOP("core", "{}, touch {}"),
+    QT_TRANSLATE_NOOP("core", "{}, which is named, in a course of its own would explain it as well"),
     QT_TRANSLATE_NOOP("core", "{}, {} {}: x {:g}, y {:g}, z {:g} mm, spindle {:g}°"),
     QT_TRANSLATE_NOOP("core", "{}/current has no nextSequence."),
     QT_TRANSLATE_NOOP("core", "{}/probe answers, but not with MTConnectDevices."),

@@ -15,7 +15,7 @@ constexpr double most_mean = 2.5;
 constexpr double most_tile = 12.0;
 constexpr int tile_px = 40;
 constexpr double least_structure = 0.97;
-constexpr double least_structure_of_tile = 0.4;
+constexpr double least_structure_of_tile = 0.75;
 constexpr int blur_px = 2;  ///< to each side
 constexpr std::size_t kept_colours = 128;
 
