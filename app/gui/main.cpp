@@ -281,8 +281,8 @@ int run(int argc, char** argv) {
   const QCommandLineOption record(
       QStringLiteral("record"),
       QCoreApplication::translate("main",
-                                  "Write what is done at the window to FILE when it is closed, so that others can do "
-                                  "it again (JSON)."),
+                                  "Write what is done at the window, with what is typed, to FILE, so that others can "
+                                  "do it again (JSON)."),
       QStringLiteral("FILE"));
   const QCommandLineOption reference(
       QStringLiteral("reference"),

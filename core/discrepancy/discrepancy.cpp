@@ -200,10 +200,6 @@ NoiseModel ownNoiseOf(NoiseModel noise) {
   return noise;
 }
 
-/// Evidence (2 ln of the odds) from which on effects are believed in place of noise that is common to a state or
-/// follows itself in time: "very strong" (Kass and Raftery 1995, above 10), for it was looked for a second time.
-constexpr double instead_of_common_noise = 12.0;
-
 /// Noise and effects together. The first noise is estimated before any effect is known, and what moves all points of a
 /// state alike may have gone into it: where nothing is found beside such noise, the search begins once more with the
 /// own noise of the readings alone. Its answer stands if it is the more probable one with noise and a smooth remainder
@@ -227,7 +223,7 @@ void weigh(Analysis& a, const DiscrepancyInput& input, ResidualProblem& problem,
   Remainder remainder = std::move(a.remainder);
   problem.setNoise(ownNoiseOf(start));
   alternate(a, input, problem, options, priors, exact, off, job);
-  if (a.posterior.over_unknown > instead_of_common_noise) return;
+  if (a.posterior.over_unknown > priors.instead_of_common_noise) return;
   a.drivers->shiftClock(clock_offset_s - a.clock_offset_s);
   a.clock_offset_s = clock_offset_s;
   a.clock_uncertainty_s = clock_uncertainty_s;

@@ -61,6 +61,9 @@ struct DiscrepancyPriors {
   /// of one that chooses its own onset.
   double further_error = 0.07;
   double further_onset_error = 0.12;
+  /// Evidence (2 ln of the odds) from which on effects are believed in place of noise that is common to a state or
+  /// follows itself in time: "very strong" (Kass and Raftery 1995, above 10), for it is looked for a second time.
+  double instead_of_common_noise = 12.0;
   /// Standard deviation of the offset between the clocks of log and observations, s.
   double clock_s = 120.0;
   /// An unknown cause leaves of an effect that imitates it this part of its amplitude, or more. What bodies do that

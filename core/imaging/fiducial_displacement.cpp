@@ -250,11 +250,11 @@ std::string lackOf(const std::string& fiducial, const std::string& state, bool h
   if (group != groups.end()) there = height ? group->focus.size() : orientationCount(images, group->rotation);
   if (there >= needed)
     return fmt::format("{} has no {} in {}", fiducial, height ? "height" : "position in the plane", state);
-  const char* const images_needed = height ? "focus" : "rotation";
-  return there > 0 ? fmt::format("{} has only {} of the {} {} images it needs in {}", fiducial, numberWord(there),
-                                 numberWord(needed), images_needed, state)
-                   : fmt::format("{} has none of the {} {} images it needs in {}", fiducial, numberWord(needed),
-                                 images_needed, state);
+  const char* const kind = height ? "focus" : "rotation";
+  return there > 0
+             ? fmt::format("{} has only {} of the {} {} images it needs in {}", fiducial, numberWord(there),
+                           numberWord(needed), kind, state)
+             : fmt::format("{} has none of the {} {} images it needs in {}", fiducial, numberWord(needed), kind, state);
 }
 
 /// What a fiducial lacks in a state, and what follows: without the reference nothing, else only that state.

@@ -33,7 +33,6 @@ struct FreeForm {
   Eigen::VectorXd coefficients_mm;    ///< a_ij in the order of evaluateTerms()
   Eigen::MatrixXd covariance_mm2;     ///< of the coefficients
   double log_evidence = 0.0;          ///< natural logarithm of the evidence against that of no change
-  double length_mm = 0.0;             ///< l, mean over its evidence
   double misfit_ratio_without = 0.0;  ///< RegistrationResult::misfit_ratio of the motion alone
   /// What the covariance does to (u, w) of the motion (mm, rad): a part of RegistrationResult::covariance.
   Eigen::Matrix<double, 6, 6> motion_covariance = Eigen::Matrix<double, 6, 6>::Zero();

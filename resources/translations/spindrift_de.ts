@@ -9989,8 +9989,8 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Eine Demositzung der virtuellen Maschine öffnen; ihr Name kann folgen: fiducials, holes, balls, scans, discrepancy, own_pattern.</translation>
     </message>
     <message>
-        <source>Write what is done at the window to FILE when it is closed, so that others can do it again (JSON).</source>
-        <translation>Beim Schließen nach FILE schreiben, was am Fenster getan wird, sodass andere es wiederholen können (JSON).</translation>
+        <source>Write what is done at the window, with what is typed, to FILE, so that others can do it again (JSON).</source>
+        <translation>Nach FILE schreiben, was am Fenster getan und eingegeben wird, sodass andere es wiederholen können (JSON).</translation>
     </message>
 </context>
 <context>

@@ -21,10 +21,9 @@ Page::Page(PageContext context, StepId step, QWidget* parent)
   auto* titles = new QVBoxLayout;
   titles->setSpacing(2);
   titles->addWidget(makeLabel(stepTitle(step), "pageTitle"));
-  auto* instruction = new WrappedLabel;
-  instruction->setProperty("role", QStringLiteral("instruction"));
-  instruction->setText(stepInstruction(step));
-  instruction_ = instruction;
+  instruction_ = new WrappedLabel;
+  instruction_->setProperty("role", QStringLiteral("instruction"));
+  instruction_->setText(stepInstruction(step));
   titles->addWidget(instruction_);
   head->addLayout(titles, 1);
   actions_ = new QHBoxLayout;
@@ -40,7 +39,7 @@ Page::Page(PageContext context, StepId step, QWidget* parent)
 }
 
 void Page::setInstruction(const QString& sentence) {
-  static_cast<WrappedLabel*>(instruction_)->setText(sentence);
+  instruction_->setText(sentence);
 }
 
 void Page::addAction(QWidget* widget) {

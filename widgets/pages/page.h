@@ -17,12 +17,12 @@
 #include "widgets/workflow/workflow.h"
 
 class QHBoxLayout;
-class QLabel;
 class QVBoxLayout;
 
 namespace spindrift::gui {
 
 class Callout;
+class WrappedLabel;
 
 /// What every page works with.
 struct PageContext {
@@ -91,7 +91,7 @@ class Page : public QWidget {
   std::int64_t seen_visit_ = -1;
   PageContext context_;
   StepId step_;
-  QLabel* instruction_;
+  WrappedLabel* instruction_;
   Callout* callout_;
   QVBoxLayout* content_;
   QHBoxLayout* actions_;

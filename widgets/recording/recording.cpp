@@ -14,6 +14,7 @@
 #include "core/base/atomic_file.h"
 #include "core/base/json_reader.h"
 #include "core/base/log.h"
+#include "core/base/text.h"
 
 namespace spindrift::gui {
 namespace {
@@ -42,12 +43,19 @@ std::string modifierText(Qt::KeyboardModifiers modifiers) {
   return text;
 }
 
-Qt::KeyboardModifiers modifiersOf(const QString& text) {
+Qt::KeyboardModifiers modifiersOf(const JsonNode& node) {
   Qt::KeyboardModifiers modifiers;
-  for (const QString& one : text.split(QLatin1Char('+'))) {
-    if (one == QLatin1String("Ctrl")) modifiers |= Qt::ControlModifier;
-    if (one == QLatin1String("Alt")) modifiers |= Qt::AltModifier;
-    if (one == QLatin1String("Shift")) modifiers |= Qt::ShiftModifier;
+  if (!node.has("held")) return modifiers;
+  for (const std::string& one : splitList(node.at("held").string(), '+')) {
+    if (one == "Ctrl") {
+      modifiers |= Qt::ControlModifier;
+    } else if (one == "Alt") {
+      modifiers |= Qt::AltModifier;
+    } else if (one == "Shift") {
+      modifiers |= Qt::ShiftModifier;
+    } else {
+      node.at("held").reject("Ctrl, Alt and Shift, joined by +");
+    }
   }
   return modifiers;
 }
@@ -114,7 +122,7 @@ Interaction interactionOf(const JsonNode& node) {
   Interaction one;
   for (const auto& [kind, name] : kindNames())
     if (name == done) one.kind = kind;
-  one.modifiers = modifiersOf(textOf(node, "held"));
+  one.modifiers = modifiersOf(node);
   if (one.kind == Kind::Look) {
     one.text = QString::fromStdString(node.at("name").name());
     return one;

@@ -4,6 +4,7 @@
 //
 // `spindrift --record FILE` writes one (JSON, "spindrift-recording"). Controls are named and not placed
 // (control_name.h), so that the list holds for windows of any size, scale and theme, in the language it was made in.
+// Everything that is typed is in it.
 // tests/widgets/shell/recordings_test.cpp does what is in one.
 #pragma once
 
