@@ -116,7 +116,9 @@ QStringList languageCodes() {
 std::string wrongUsage(const QCommandLineParser& parser) {
   const QStringList words = parser.positionalArguments();
   if (words.size() > 1) {
-    return "\"" + words[1].toStdString() + "\" is one word too many; allowed: one session, campaign or name of a demo.";
+    return "\"" + words[1].toStdString() +
+           "\" is one word too many; allowed: one session, campaign or name of a demo. Commands are given "
+           "to spindrift-cli.";
   }
   const QString theme = parser.value(QStringLiteral("theme"));
   if (parser.isSet(QStringLiteral("theme")) && theme != QLatin1String("light") && theme != QLatin1String("dark")) {

@@ -235,10 +235,19 @@ std::vector<char> ThermalModel::outsideTraining(const std::vector<double>& novel
     marked += static_cast<std::size_t>(outside[r]);
   }
   if (marked > 0 && notes != nullptr) {
+    const auto furthest = std::max_element(novelty.begin(), novelty.end());
     notes->push_back(
         fmt::format("in {} of {} rows the inputs stand together as they never did in training (up to {:.1f} times "
                     "beyond its reach); the interval is wider there.",
-                    marked, count, *std::max_element(novelty.begin(), novelty.end())));
+                    marked, count, *furthest));
+    const std::vector<std::string> apart =
+        outputs[which].pattern->apart(series, static_cast<std::size_t>(furthest - novelty.begin()));
+    if (!apart.empty()) {
+      notes->push_back(
+          fmt::format("{} and {} moved together in training and part here: which of them causes what, the training "
+                      "cannot tell; let one move without the other there.",
+                      apart[0], apart[1]));
+    }
   }
   if (jointly && notes == nullptr) return outside;
   std::set<std::string> reported;

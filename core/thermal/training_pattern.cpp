@@ -140,4 +140,31 @@ std::vector<double> TrainingPattern::novelty(const TimeSeries& series) const {
   return out;
 }
 
+std::vector<std::string> TrainingPattern::apart(const TimeSeries& series, std::size_t row) const {
+  const auto count = static_cast<Index>(inputs.size());
+  if (count < 2) return {};
+  const Eigen::MatrixXd covariance = (directions.transpose() * directions).inverse().topLeftCorner(count, count);
+  Eigen::VectorXd z(count);
+  for (Index k = 0; k < count; ++k) {
+    const std::string& name = inputs[static_cast<std::size_t>(k)];
+    const Signal& signal = series.at(name);
+    z[k] = bridged(series.time_s, signal.values, holdsUntilNextRow(signal.kind))[row] - mean[k];
+  }
+  std::vector<std::string> out;
+  double largest = 0.0;
+  for (Index i = 0; i < count; ++i) {
+    for (Index k = i + 1; k < count; ++k) {
+      const std::array<Index, 2> pair{i, k};
+      const Eigen::Matrix2d of_pair = covariance(pair, pair);
+      const Eigen::Vector2d here = z(pair);
+      const double together = here.dot(of_pair.ldlt().solve(here));
+      const double alone = (here.array().square() / of_pair.diagonal().array()).maxCoeff();
+      if (!(together > largest) || !(together > 2.0 * alone)) continue;
+      largest = together;
+      out = {inputs[static_cast<std::size_t>(i)], inputs[static_cast<std::size_t>(k)]};
+    }
+  }
+  return out;
+}
+
 }  // namespace spindrift

@@ -31,6 +31,9 @@ struct TrainingPattern {
 
   /// At every row; up to 1 was seen.
   [[nodiscard]] std::vector<double> novelty(const TimeSeries& series) const;
+  /// The two inputs that are furthest from each other at a row, measured by how far apart they were in training, where
+  /// together they are further out than each alone by more than both together by as much again; else nothing.
+  [[nodiscard]] std::vector<std::string> apart(const TimeSeries& series, std::size_t row) const;
 };
 
 /// Of these columns over from_s <= t < to_s; inputs that do not change there are left out. The lag is a twentieth of

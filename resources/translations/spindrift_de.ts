@@ -9386,6 +9386,10 @@ endgültig fehlgeschlagen: {}</translation>
         <source>{}, which is named, in a course of its own would explain it as well</source>
         <translation>{}, bereits benannt, würde es mit einem eigenen Verlauf ebenso erklären</translation>
     </message>
+    <message>
+        <source>{} and {} moved together in training and part here: which of them causes what, the training cannot tell; let one move without the other there.</source>
+        <translation>{} und {} haben sich im Training gemeinsam bewegt und trennen sich hier: Welche davon was verursacht, sagt das Training nicht; lassen Sie dort einmal eine ohne die andere laufen.</translation>
+    </message>
 </context>
 <context>
     <name>help</name>

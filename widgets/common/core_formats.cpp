@@ -1928,6 +1928,7 @@ const char* const formats[] = {
     QT_TRANSLATE_NOOP("core", "{} and {} cannot be distinguished with these data (correlation {:.3f}): only their joint effect is determined."),
     QT_TRANSLATE_NOOP("core", "{} and {} have the same effect on the observations: their magnitudes cannot be estimated jointly; allowed: one of the two."),
     QT_TRANSLATE_NOOP("core", "{} and {} have the same shape at all points and the same drivers: no measurement of this kind can distinguish them."),
+    QT_TRANSLATE_NOOP("core", "{} and {} moved together in training and part here: which of them causes what, the training cannot tell; let one move without the other there."),
     QT_TRANSLATE_NOOP("core", "{} and {} of the simulation have the same effect on the observations and cannot be distinguished."),
     QT_TRANSLATE_NOOP("core", "{} are at points that {} lacks ({})"),
     QT_TRANSLATE_NOOP("core", "{} are of components that {} lacks ({})"),

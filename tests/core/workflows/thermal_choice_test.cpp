@@ -371,6 +371,42 @@ TEST(ThermalChoice, NoveltyIsTheDistanceToTheNearestPlace) {
   EXPECT_GT(furthest, 2.0) << "the record leaves the pattern";
 }
 
+/// A bed and a nozzle that are heated together: which of them lifts the probe only shows when one of them cools first.
+TEST(ThermalChoice, InputsThatNeverMovedApartAreNamedWhereTheyDo) {
+  const auto record = [](double nozzle_off_s, double bed_off_s) {
+    Random random(6);
+    TimeSeries series;
+    Signal bed{"T_bed_degC", SignalKind::Temperature, {}};
+    Signal nozzle{"T_nozzle_degC", SignalKind::Temperature, {}};
+    Signal room{"T_room_degC", SignalKind::Temperature, {}};
+    for (int k = 0; k < 400; ++k) {
+      const double t = 20.0 * k;
+      const auto heated = [&](double off_s) {
+        const double on = t < 600.0 ? 0.0 : 1.0 - std::exp(-(t - 600.0) / 200.0);
+        return t < off_s ? on : on * std::exp(-(t - off_s) / 300.0);
+      };
+      series.time_s.push_back(t);
+      bed.values.push_back(24.0 + 46.0 * heated(bed_off_s) + random.normal(0.0, 0.3));
+      nozzle.values.push_back(26.0 + 195.0 * heated(nozzle_off_s) + random.normal(0.0, 1.0));
+      room.values.push_back(22.0 + std::sin(t / 700.0) + random.normal(0.0, 0.1));
+    }
+    series.signals = {std::move(bed), std::move(nozzle), std::move(room)};
+    return series;
+  };
+  const std::vector<std::string> all = {"T_bed_degC", "T_nozzle_degC", "T_room_degC"};
+  const auto furthestApart = [&](const TimeSeries& series) {
+    const TrainingPattern pattern = trainingPattern(series, all, 0.0, 4000.0);
+    const std::vector<double> novelty = pattern.novelty(series);
+    const auto row = static_cast<std::size_t>(std::max_element(novelty.begin(), novelty.end()) - novelty.begin());
+    EXPECT_GT(novelty[row], 1.0);
+    return pattern.apart(series, row);
+  };
+  EXPECT_EQ(furthestApart(record(5000.0, 1e9)), (std::vector<std::string>{"T_bed_degC", "T_nozzle_degC"}));
+  TimeSeries hot = record(1e9, 1e9);  // one alone that leaves its range is no pair
+  for (std::size_t r = 250; r < hot.time_s.size(); ++r) hot.signals[2].values[r] += 40.0;
+  EXPECT_TRUE(furthestApart(hot).empty());
+}
+
 TEST(ThermalChoice, AnArxModelWithComplexPolesIsNotShipped) {
   // A swinging system: poles 0.95 +- 0.2i.
   Random random(5);
