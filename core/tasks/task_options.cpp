@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "core/base/atomic_file.h"
 
 namespace spindrift {
@@ -46,11 +48,25 @@ std::filesystem::path EffectOptions::file(const Session& session, std::int64_t c
   return session.folder() / "effects" / fmt::format("{}.json", campaign);
 }
 
-std::filesystem::path EffectOptions::write(const Session& session, std::int64_t campaign) const {
-  const std::filesystem::path target = std::filesystem::absolute(file(session, campaign));
-  std::filesystem::create_directories(target.parent_path());
-  writeFileAtomically(target, effects.dump(2) + "\n");
-  return target;
+bool EffectOptions::considers(const std::string& id) const {
+  return std::find(rejected.begin(), rejected.end(), id) == rejected.end();
+}
+
+void EffectOptions::consider(const std::string& id, bool considered) {
+  std::erase(rejected, id);
+  if (considered) return;
+  std::erase(added, id);
+  rejected.push_back(id);
+}
+
+std::shared_ptr<const Campaign> EffectOptions::applied(std::shared_ptr<const Campaign> campaign,
+                                                       const std::filesystem::path& file) const {
+  if (!effects.is_object()) return campaign;
+  std::filesystem::create_directories(file.parent_path());
+  writeFileAtomically(file, effects.dump(2) + "\n");
+  auto copy = std::make_shared<Campaign>(*campaign);
+  copy->effects = std::filesystem::absolute(file);
+  return copy;
 }
 
 NineParameterOptions nineParameterOptions(const nlohmann::json& json) {

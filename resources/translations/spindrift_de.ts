@@ -9386,6 +9386,14 @@ endgültig fehlgeschlagen: {}</translation>
         <source>{}, which is named, in a course of its own would explain it as well</source>
         <translation>{}, bereits benannt, würde es mit einem eigenen Verlauf ebenso erklären</translation>
     </message>
+    <message>
+        <source>the model has no output to compensate.</source>
+        <translation>das Modell hat keine Ausgangsgröße, die kompensiert werden könnte.</translation>
+    </message>
+    <message>
+        <source>the log has no column {} that the model is of.</source>
+        <translation>das Protokoll hat keine Spalte {}, zu der das Modell gehört.</translation>
+    </message>
 </context>
 <context>
     <name>help</name>

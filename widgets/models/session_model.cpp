@@ -394,6 +394,14 @@ nlohmann::json SessionModel::campaignSetting(const std::string& key, const nlohm
   return session_ == nullptr ? otherwise : spindrift::campaignSetting(*session_, state_.id, key, otherwise);
 }
 
+EffectOptions SessionModel::effects() const {
+  return session_ == nullptr ? EffectOptions() : EffectOptions::of(*session_, state_.id);
+}
+
+std::filesystem::path SessionModel::effectsFile() const {
+  return session_ == nullptr ? std::filesystem::path() : EffectOptions::file(*session_, state_.id);
+}
+
 std::string SessionModel::draftKey(const std::string& name) const {
   return campaignKey("draft/" + name);
 }

@@ -9,12 +9,9 @@
 #include <memory>
 #include <vector>
 
-#include "widgets/commands/campaign_undo.h"
 #include "widgets/export/exportable.h"
-#include "widgets/jobs/job_runner.h"
 #include "widgets/jobs/task_job.h"
-#include "widgets/models/session_model.h"
-#include "widgets/workflow/workflow.h"
+#include "widgets/panels/page_context.h"
 
 class QHBoxLayout;
 class QVBoxLayout;
@@ -23,15 +20,6 @@ namespace spindrift::gui {
 
 class Callout;
 class WrappedLabel;
-
-/// What every page works with.
-struct PageContext {
-  SessionModel& session;
-  JobRunner& jobs;
-  CampaignUndo& undo;
-  Workflow& workflow;
-  std::function<void(const QString&)> hint;  ///< a short text at the bottom: the value under the cursor
-};
 
 class Page : public QWidget {
   Q_OBJECT

@@ -25,21 +25,21 @@
 #include "core/base/text.h"
 #include "core/machine/observation.h"
 #include "core/tasks/task_options.h"
-#include "tests/widgets/pages/story_support.h"
+#include "tests/widgets/support/story_support.h"
 #include "widgets/commands/commands.h"
 #include "widgets/common/parts.h"
 #include "widgets/jobs/job_bar.h"
 #include "widgets/pages/discrepancy/discrepancy_page.h"
-#include "widgets/pages/discrepancy/simulation_panel.h"
 #include "widgets/pages/machine/machine_page.h"
 #include "widgets/pages/page.h"
 #include "widgets/pages/probing/touch_capture_page.h"
 #include "widgets/pages/report/report_page.h"
-#include "widgets/pages/thermal/clock_panel.h"
 #include "widgets/pages/thermal/thermal_model_page.h"
-#include "widgets/pages/thermal/update_panel.h"
 #include "widgets/pages/thermal/warm_up_page.h"
 #include "widgets/pages/verify/verify_page.h"
+#include "widgets/panels/discrepancy/simulation_panel.h"
+#include "widgets/panels/thermal/clock_panel.h"
+#include "widgets/panels/thermal/update_panel.h"
 #include "widgets/plots/plot.h"
 #include "widgets/shell/tour.h"
 
@@ -443,20 +443,22 @@ TEST(JobsMidwayCases, EveryJobOfAPageIsAmongThem) {
   const QRegularExpression job(
       QStringLiteral(R"re((?:\brun_?\(|\bdisplay\(|\bjob\.title = |\bQString title = |pending, )\s*tr\("([^"]+)")re"));
   int found = 0;
-  QDirIterator files(QStringLiteral(SPINDRIFT_SOURCE_DIR "/widgets/pages"), {QStringLiteral("*.cpp")}, QDir::Files,
-                     QDirIterator::Subdirectories);
-  while (files.hasNext()) {
-    const QString name = files.next();
-    if (name.contains(QRegularExpression(QStringLiteral("/(plant|teaching|capture)/|connections_|closed_loop"))))
-      continue;
-    QFile file(name);
-    ASSERT_TRUE(file.open(QIODevice::ReadOnly));
-    auto match = job.globalMatch(QString::fromUtf8(file.readAll()));
-    while (match.hasNext()) {
-      const QString title = match.next().captured(1);
-      ++found;
-      EXPECT_TRUE(tested.contains(title) || elsewhere.contains(title))
-          << name.toStdString() << ": " << title.toStdString();
+  for (const char* folder : {"pages", "panels"}) {
+    QDirIterator files(QStringLiteral(SPINDRIFT_SOURCE_DIR "/widgets/") + QLatin1String(folder),
+                       {QStringLiteral("*.cpp")}, QDir::Files, QDirIterator::Subdirectories);
+    while (files.hasNext()) {
+      const QString name = files.next();
+      if (name.contains(QRegularExpression(QStringLiteral("/(plant|teaching|capture)/|connections_|closed_loop"))))
+        continue;
+      QFile file(name);
+      ASSERT_TRUE(file.open(QIODevice::ReadOnly));
+      auto match = job.globalMatch(QString::fromUtf8(file.readAll()));
+      while (match.hasNext()) {
+        const QString title = match.next().captured(1);
+        ++found;
+        EXPECT_TRUE(tested.contains(title) || elsewhere.contains(title))
+            << name.toStdString() << ": " << title.toStdString();
+      }
     }
   }
   EXPECT_GE(found, 25);

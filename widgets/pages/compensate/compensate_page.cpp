@@ -31,9 +31,9 @@
 #include "widgets/common/words.h"
 #include "widgets/common/wrap_layout.h"
 #include "widgets/models/rows_model.h"
-#include "widgets/pages/compensate/closed_loop_service.h"
 #include "widgets/pages/discrepancy/discrepancy_page.h"
-#include "widgets/pages/discrepancy/effect_titles.h"
+#include "widgets/panels/common/effect_titles.h"
+#include "widgets/services/closed_loop_service.h"
 #include "widgets/view3d/view3d.h"
 
 namespace spindrift::gui {
@@ -45,7 +45,8 @@ constexpr std::array<const char*, 3> axis_words{"X", "Y", "Z"};
 }  // namespace
 
 CompensatePage::CompensatePage(PageContext page_context, QWidget* parent)
-    : Page(std::move(page_context), StepId::Compensate, parent), options_(context(), option_keys::compensation, [this] {
+    : Page(std::move(page_context), StepId::Compensate, parent),
+      options_(session(), context().undo, option_keys::compensation, [this] {
         context().workflow.refresh();
         refresh();
         compute();
@@ -203,7 +204,7 @@ CompensatePage::CompensatePage(PageContext page_context, QWidget* parent)
 
 bool CompensatePage::hasSource(CompensationSource source) const {
   if (source != CompensationSource::CompletedModel) return session().state("fit").there;
-  return !DiscrepancyChoice::of(session()).added.empty();
+  return !session().effects().added.empty();
 }
 
 CompensationRequest CompensatePage::request() const {
@@ -304,8 +305,8 @@ void CompensatePage::runPlan(bool store) {
     return;
   const PendingResult pending = session().begin(compensation_result);
   const QString title = tr("Calculating the compensation");
-  const ResultWork work = [this, observations, asked = request(), choice = DiscrepancyChoice::of(session()),
-                           effects_file = DiscrepancyChoice::file(session()),
+  const ResultWork work = [this, observations, asked = request(), choice = session().effects(),
+                           effects_file = session().effectsFile(),
                            data = session().snapshot().campaign](JobContext& progress) -> Worked {
     const CompensationPlan plan = planCompensation(*choice.applied(data, effects_file), *observations, asked, progress);
     return {plan.json(), [this, plan] { plan_ = plan; }};

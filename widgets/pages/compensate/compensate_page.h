@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "core/workflows/compensation_workflow.h"
-#include "widgets/pages/bound_options.h"
+#include "widgets/commands/bound_options.h"
 #include "widgets/pages/page.h"
 
 class QCheckBox;

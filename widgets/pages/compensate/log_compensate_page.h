@@ -5,8 +5,7 @@
 
 #include <memory>
 
-#include "core/thermal/time_series.h"
-#include "core/workflows/thermal_tracking.h"
+#include "core/workflows/compensator_run.h"
 #include "widgets/pages/page.h"
 
 namespace spindrift::gui {
@@ -15,21 +14,6 @@ class EmptyState;
 class LiveCompensationPanel;
 class NumberTile;
 class Plot;
-
-/// A compensator that was run over a log.
-struct CompensatorRun {
-  CompensateResult result;
-  std::string output;  ///< the one that is shown
-  std::vector<double> time_s;
-  std::vector<double> measured;  ///< about its mean, NaN where it is not measured
-  std::vector<double> left;      ///< measured plus compensation, about its mean
-  TimeRange test;
-  double before_rms = 0.0;  ///< in the test range, about the mean there; NaN without values
-  double after_rms = 0.0;
-};
-/// Runs `model` over the series. Throws InputError if inputs are missing.
-[[nodiscard]] CompensatorRun runCompensator(const TimeSeries& series, const ThermalModel& model, const TimeRange& test,
-                                            const JobContext& job);
 
 class LogCompensatePage : public Page {
   Q_OBJECT

@@ -17,12 +17,12 @@
 #include "core/workflows/capture_check.h"
 #include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
+#include "widgets/image_view/decode_marks.h"
 #include "widgets/image_view/image_view.h"
+#include "widgets/models/cells.h"
 #include "widgets/models/rows_model.h"
-#include "widgets/pages/capture/capture_tabs.h"
-#include "widgets/pages/common/cells.h"
-#include "widgets/pages/common/exclude_items.h"
-#include "widgets/pages/imaging/decode_marks.h"
+#include "widgets/panels/capture/capture_tabs.h"
+#include "widgets/panels/common/exclude_items.h"
 #include "widgets/theme/numbers.h"
 
 namespace spindrift::gui {

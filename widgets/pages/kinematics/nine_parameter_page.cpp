@@ -23,9 +23,9 @@
 #include "widgets/common/parts.h"
 #include "widgets/common/words.h"
 #include "widgets/common/wrap_layout.h"
+#include "widgets/models/cells.h"
 #include "widgets/models/rows_model.h"
-#include "widgets/pages/common/cells.h"
-#include "widgets/pages/discrepancy/effect_titles.h"
+#include "widgets/panels/common/effect_titles.h"
 #include "widgets/theme/numbers.h"
 #include "widgets/view3d/view3d.h"
 
@@ -50,7 +50,8 @@ Cell parameterCell(double value, double sigma, std::string_view unit) {
 }  // namespace
 
 NineParameterPage::NineParameterPage(PageContext page_context, QWidget* parent)
-    : Page(std::move(page_context), StepId::Model, parent), options_(context(), option_keys::nine_parameters, [this] {
+    : Page(std::move(page_context), StepId::Model, parent),
+      options_(session(), context().undo, option_keys::nine_parameters, [this] {
         refresh();
         fit();
       }) {

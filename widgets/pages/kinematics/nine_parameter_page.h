@@ -8,7 +8,7 @@
 #include "core/machine/field.h"
 #include "core/machine/nine_parameter_model.h"
 #include "core/machine/table_polynomial.h"
-#include "widgets/pages/bound_options.h"
+#include "widgets/commands/bound_options.h"
 #include "widgets/pages/page.h"
 
 class QCheckBox;

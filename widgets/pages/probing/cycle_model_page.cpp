@@ -21,11 +21,11 @@
 #include "core/tasks/task_options.h"
 #include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
+#include "widgets/models/cells.h"
 #include "widgets/models/rows_model.h"
-#include "widgets/pages/common/cells.h"
-#include "widgets/pages/discrepancy/effect_titles.h"
-#include "widgets/pages/probing/touch_results.h"
+#include "widgets/panels/common/effect_titles.h"
 #include "widgets/plots/plot.h"
+#include "widgets/services/touch_results.h"
 #include "widgets/theme/numbers.h"
 #include "widgets/view3d/view3d.h"
 
@@ -46,7 +46,7 @@ QString weakText(const Eigen::VectorXd& combination, const std::vector<std::stri
 CycleModelPage::CycleModelPage(PageContext page_context, QWidget* parent)
     : Page(std::move(page_context), StepId::Model, parent),
       results_(TouchResults::of(session())),
-      options_(context(), option_keys::cycles, [this] {
+      options_(session(), context().undo, option_keys::cycles, [this] {
         refresh();
         if (session().state("fit").there) fit(true);
       }) {

@@ -8,7 +8,7 @@
 #include "core/machine/field.h"
 #include "core/probing/evaluate_touches.h"
 #include "core/probing/volumetric_error.h"
-#include "widgets/pages/bound_options.h"
+#include "widgets/commands/bound_options.h"
 #include "widgets/pages/page.h"
 
 class QCheckBox;

@@ -16,12 +16,12 @@
 #include "widgets/common/parts.h"
 #include "widgets/common/preferences.h"
 #include "widgets/common/wrap_layout.h"
+#include "widgets/models/cells.h"
 #include "widgets/models/rows_model.h"
-#include "widgets/pages/capture/capture_tabs.h"
-#include "widgets/pages/common/cells.h"
-#include "widgets/pages/common/exclude_items.h"
-#include "widgets/pages/probing/probing_scene.h"
-#include "widgets/pages/probing/touch_results.h"
+#include "widgets/panels/capture/capture_tabs.h"
+#include "widgets/panels/common/exclude_items.h"
+#include "widgets/panels/common/probing_scene.h"
+#include "widgets/services/touch_results.h"
 #include "widgets/theme/numbers.h"
 
 namespace spindrift::gui {

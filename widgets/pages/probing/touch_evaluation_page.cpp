@@ -17,11 +17,11 @@
 #include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
 #include "widgets/common/preferences.h"
+#include "widgets/models/cells.h"
 #include "widgets/models/rows_model.h"
-#include "widgets/pages/common/cells.h"
-#include "widgets/pages/probing/reference_panel.h"
-#include "widgets/pages/probing/touch_results.h"
+#include "widgets/panels/probing/reference_panel.h"
 #include "widgets/plots/plot.h"
+#include "widgets/services/touch_results.h"
 #include "widgets/theme/numbers.h"
 
 namespace spindrift::gui {

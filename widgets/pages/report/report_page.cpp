@@ -26,7 +26,7 @@
 #include "widgets/common/parts.h"
 #include "widgets/jobs/task_job.h"
 #include "widgets/models/rows_model.h"
-#include "widgets/pages/discrepancy/effect_titles.h"
+#include "widgets/panels/common/effect_titles.h"
 #include "widgets/report/page_view.h"
 #include "widgets/report/report_pages.h"
 
@@ -44,7 +44,8 @@ void saveCopy(const std::filesystem::path& html, const std::filesystem::path& pd
 }  // namespace
 
 ReportPage::ReportPage(PageContext page_context, QWidget* parent)
-    : Page(std::move(page_context), StepId::Report, parent), options_(context(), option_keys::report, [this] {
+    : Page(std::move(page_context), StepId::Report, parent),
+      options_(session(), context().undo, option_keys::report, [this] {
         context().workflow.refresh();
         refresh();
       }) {

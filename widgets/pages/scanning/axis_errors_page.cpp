@@ -17,12 +17,12 @@
 #include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
 #include "widgets/common/words.h"
+#include "widgets/models/cells.h"
 #include "widgets/models/rows_model.h"
-#include "widgets/pages/common/cells.h"
-#include "widgets/pages/scanning/scan_results.h"
 #include "widgets/plots/plot.h"
 #include "widgets/plots/plot_grid.h"
 #include "widgets/plots/surface_plot.h"
+#include "widgets/services/scan_results.h"
 #include "widgets/theme/numbers.h"
 
 namespace spindrift::gui {
@@ -69,7 +69,7 @@ double cycleDuration(const ScanEvaluation& evaluation) {
 AxisErrorsPage::AxisErrorsPage(PageContext page_context, QWidget* parent)
     : Page(std::move(page_context), StepId::Model, parent),
       results_(ScanResults::of(session())),
-      options_(context(), option_keys::scan_model, [this] {
+      options_(session(), context().undo, option_keys::scan_model, [this] {
         refresh();
         if (session().state("fit").there) fit(true);
       }) {

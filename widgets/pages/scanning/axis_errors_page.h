@@ -6,7 +6,7 @@
 #include <array>
 
 #include "core/scanning/axis_errors.h"
-#include "widgets/pages/bound_options.h"
+#include "widgets/commands/bound_options.h"
 #include "widgets/pages/page.h"
 
 class QTabWidget;

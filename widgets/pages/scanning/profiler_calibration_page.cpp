@@ -14,10 +14,10 @@
 #include "core/workflows/evaluate_campaign.h"
 #include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
+#include "widgets/models/cells.h"
 #include "widgets/models/rows_model.h"
-#include "widgets/pages/common/cells.h"
-#include "widgets/pages/scanning/scan_results.h"
 #include "widgets/plots/plot.h"
+#include "widgets/services/scan_results.h"
 #include "widgets/theme/numbers.h"
 
 namespace spindrift::gui {

@@ -22,10 +22,10 @@
 #include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
 #include "widgets/common/words.h"
+#include "widgets/models/cells.h"
 #include "widgets/models/rows_model.h"
-#include "widgets/pages/common/cells.h"
-#include "widgets/pages/thermal/iso_panel.h"
-#include "widgets/pages/thermal/update_panel.h"
+#include "widgets/panels/thermal/iso_panel.h"
+#include "widgets/panels/thermal/update_panel.h"
 #include "widgets/plots/plot.h"
 #include "widgets/theme/numbers.h"
 
@@ -38,7 +38,7 @@ constexpr std::array<const char*, 3> methods{"response", "arx", "oe"};
 
 ThermalModelPage::ThermalModelPage(PageContext page_context, QWidget* parent)
     : Page(std::move(page_context), StepId::Model, parent),
-      options_(context(), option_keys::thermal, [this] { refresh(); }) {
+      options_(session(), context().undo, option_keys::thermal, [this] { refresh(); }) {
   setInstruction(tr("Train a model over time on one part of the log and judge it in free run on another."));
   identify_ = makeButton(tr("Identify the model"), nullptr, "primary");
   addModelSwitch(false);

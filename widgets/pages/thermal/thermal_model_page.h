@@ -9,7 +9,7 @@
 #include <optional>
 
 #include "core/workflows/thermal_workflow.h"
-#include "widgets/pages/bound_options.h"
+#include "widgets/commands/bound_options.h"
 #include "widgets/pages/page.h"
 
 class QComboBox;

@@ -21,11 +21,11 @@
 #include "widgets/common/parts.h"
 #include "widgets/common/words.h"
 #include "widgets/common/wrap_layout.h"
+#include "widgets/models/cells.h"
 #include "widgets/models/rows_model.h"
-#include "widgets/pages/common/cells.h"
-#include "widgets/pages/discrepancy/effect_titles.h"
-#include "widgets/pages/verify/verify_maps.h"
-#include "widgets/pages/verify/verify_series.h"
+#include "widgets/panels/common/effect_titles.h"
+#include "widgets/panels/verify/verify_maps.h"
+#include "widgets/panels/verify/verify_series.h"
 #include "widgets/plots/plot.h"
 #include "widgets/theme/numbers.h"
 #include "widgets/view3d/view3d.h"
@@ -65,7 +65,7 @@ QString wordOf(VerifyVerdict verdict) {
 
 VerifyPage::VerifyPage(PageContext page_context, QWidget* parent)
     : Page(std::move(page_context), StepId::Verify, parent),
-      options_(context(), option_keys::verify, [this] { refresh(); }) {
+      options_(session(), context().undo, option_keys::verify, [this] { refresh(); }) {
   compare_ = makeButton(tr("Compare before and after"), nullptr, "primary");
   addAction(compare_);
   content()->addWidget(makeChoices());

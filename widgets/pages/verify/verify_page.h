@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "core/workflows/verify_compensation.h"
-#include "widgets/pages/bound_options.h"
+#include "widgets/commands/bound_options.h"
 #include "widgets/pages/page.h"
 
 class QComboBox;

@@ -5,14 +5,14 @@
 
 #include "core/base/atomic_file.h"
 #include "tests/core/probing/probing_machines.h"
-#include "tests/widgets/pages/page_test.h"
+#include "tests/widgets/support/page_test.h"
 #include "widgets/commands/commands.h"
 #include "widgets/common/parts.h"
 #include "widgets/models/rows_model.h"
 #include "widgets/pages/probing/cycle_model_page.h"
-#include "widgets/pages/probing/reference_panel.h"
 #include "widgets/pages/probing/touch_capture_page.h"
 #include "widgets/pages/probing/touch_evaluation_page.h"
+#include "widgets/panels/probing/reference_panel.h"
 #include "widgets/plots/plot.h"
 #include "widgets/view3d/view3d.h"
 
