@@ -12,8 +12,10 @@
 
 #include "core/machine/campaign.h"
 #include "core/machine/nine_parameter_model.h"
+#include "core/probing/hole_cycle.h"
 #include "core/session/session.h"
 #include "core/workflows/compensation_workflow.h"
+#include "core/workflows/thermal_workflow.h"
 #include "core/workflows/verify_compensation.h"
 
 namespace spindrift {
@@ -62,6 +64,11 @@ struct EffectOptions {
 
 /// Of the model of one thermal state.
 [[nodiscard]] NineParameterOptions nineParameterOptions(const nlohmann::json& json);
+
+/// Of the model of every cycle of a hole bar.
+[[nodiscard]] HoleCycleOptions cycleOptions(const nlohmann::json& json);
+/// Of the model over time: what was not chosen is chosen by the series (first output, first and second half).
+[[nodiscard]] IdentifyRequest identifyRequest(const nlohmann::json& json, const TimeSeries& series);
 
 /// What is asked of the compensation; `fitted` says whether there is a fit to compensate with.
 [[nodiscard]] CompensationRequest compensationRequest(const Session& session, std::int64_t campaign, bool fitted);

@@ -474,6 +474,73 @@
     </message>
 </context>
 <context>
+    <name>Tasks</name>
+    <message>
+        <source>Not begun: another campaign was chosen while what it needs was worked out.</source>
+        <translation>Nicht begonnen: Während der Vorarbeiten dafür wurde eine andere Kampagne gewählt.</translation>
+    </message>
+    <message>
+        <source>Checking the captures</source>
+        <translation>Aufnahmen werden geprüft</translation>
+    </message>
+    <message>
+        <source>Checking the touches</source>
+        <translation>Antastungen werden geprüft</translation>
+    </message>
+    <message>
+        <source>Checking the scans</source>
+        <translation>Scans werden geprüft</translation>
+    </message>
+    <message>
+        <source>Evaluating the captures</source>
+        <translation>Aufnahmen werden ausgewertet</translation>
+    </message>
+    <message>
+        <source>Evaluating the touches</source>
+        <translation>Antastungen werden ausgewertet</translation>
+    </message>
+    <message>
+        <source>Evaluating the scans</source>
+        <translation>Scans werden ausgewertet</translation>
+    </message>
+    <message>
+        <source>Fitting all cycles</source>
+        <translation>Alle Zyklen werden angepasst</translation>
+    </message>
+    <message>
+        <source>Finding the six errors</source>
+        <translation>Sechs Abweichungen werden bestimmt</translation>
+    </message>
+    <message>
+        <source>Fitting the nine-parameter model</source>
+        <translation>Das Neun-Parameter-Modell wird angepasst</translation>
+    </message>
+    <message>
+        <source>Identifying the model</source>
+        <translation>Modell wird identifiziert</translation>
+    </message>
+    <message>
+        <source>Running the compensator</source>
+        <translation>Der Kompensator läuft</translation>
+    </message>
+    <message>
+        <source>Searching for what the simulation lacks</source>
+        <translation>Suche nach dem, was in der Simulation fehlt</translation>
+    </message>
+    <message>
+        <source>Calculating the compensation</source>
+        <translation>Kompensation wird berechnet</translation>
+    </message>
+    <message>
+        <source>Comparing before and after</source>
+        <translation>Vorher und nachher werden verglichen</translation>
+    </message>
+    <message>
+        <source>Writing the report</source>
+        <translation>Der Bericht wird geschrieben</translation>
+    </message>
+</context>
+<context>
     <name>VerifyPage</name>
     <message>
         <source>After, range over the points</source>
@@ -9394,6 +9461,30 @@ endgültig fehlgeschlagen: {}</translation>
         <source>the log has no column {} that the model is of.</source>
         <translation>das Protokoll hat keine Spalte {}, zu der das Modell gehört.</translation>
     </message>
+    <message>
+        <source>Choose the campaign that was measured with the compensation on first.</source>
+        <translation>Zuerst die Kampagne wählen, die mit eingeschalteter Kompensation gemessen wurde.</translation>
+    </message>
+    <message>
+        <source>The touches make up no whole cycle.</source>
+        <translation>Die Antastungen ergeben keinen vollständigen Zyklus.</translation>
+    </message>
+    <message>
+        <source>lists no touches.</source>
+        <translation>führt keine Antastungen auf.</translation>
+    </message>
+    <message>
+        <source>the log has a single row.</source>
+        <translation>das Protokoll hat nur eine Zeile.</translation>
+    </message>
+    <message>
+        <source>the result of {} was not kept.</source>
+        <translation>das Ergebnis von {} wurde nicht behalten.</translation>
+    </message>
+    <message>
+        <source>{} is no task of a campaign.</source>
+        <translation>{} ist keine Aufgabe einer Kampagne.</translation>
+    </message>
 </context>
 <context>
     <name>help</name>
@@ -10943,10 +11034,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Scanmodell wählen</translation>
     </message>
     <message>
-        <source>Finding the six errors</source>
-        <translation>Sechs Abweichungen werden bestimmt</translation>
-    </message>
-    <message>
         <source>Reading the six errors</source>
         <translation>Sechs Abweichungen werden gelesen</translation>
     </message>
@@ -12002,10 +12089,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Höhere Ordnung verwenden</translation>
     </message>
     <message>
-        <source>Calculating the compensation</source>
-        <translation>Kompensation wird berechnet</translation>
-    </message>
-    <message>
         <source>Files written to %1: %2</source>
         <translation>Dateien nach %1 geschrieben: %2</translation>
     </message>
@@ -12082,6 +12165,10 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>What remains of state %1 with the correction</source>
         <translation>Was vom Zustand %1 mit der Korrektur verbleibt</translation>
+    </message>
+    <message>
+        <source>Reading the compensation</source>
+        <translation>Die Kompensation wird gelesen</translation>
     </message>
 </context>
 <context>
@@ -12547,10 +12634,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Am stärksten korrelierte Parameter stehen hier nach der Anpassung.</translation>
     </message>
     <message>
-        <source>Fitting all cycles</source>
-        <translation>Alle Zyklen werden angepasst</translation>
-    </message>
-    <message>
         <source>Reading the cycles</source>
         <translation>Zyklen werden gelesen</translation>
     </message>
@@ -12741,10 +12824,6 @@ endgültig fehlgeschlagen: {}</translation>
         <source>Value / u</source>
         <translation>Wert / u</translation>
     </message>
-    <message>
-        <source>The touches make up no whole cycle.</source>
-        <translation>Die Antastungen ergeben keinen vollständigen Zyklus.</translation>
-    </message>
 </context>
 <context>
     <name>spindrift::gui::DiscrepancyPage</name>
@@ -12907,10 +12986,6 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>And %1 more.</source>
         <translation>Und %1 weitere.</translation>
-    </message>
-    <message>
-        <source>Searching for what the simulation lacks</source>
-        <translation>Suche nach dem, was in der Simulation fehlt</translation>
     </message>
     <message>
         <source>The effect that is being edited has not been taken over.</source>
@@ -13982,10 +14057,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Aufnahmen auswerten: das Maximum jeder Kurve ist die Höhe ihrer Messmarke.</translation>
     </message>
     <message>
-        <source>Evaluating the captures</source>
-        <translation>Aufnahmen werden ausgewertet</translation>
-    </message>
-    <message>
         <source>Press Evaluate the captures. Bad ones are listed with their reason, the rest is evaluated.</source>
         <translation>„Aufnahmen auswerten“ drücken. Unbrauchbare werden mit Grund aufgeführt, die übrigen ausgewertet.</translation>
     </message>
@@ -14331,13 +14402,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>
             <numerusform>eine ist</numerusform>
             <numerusform>%n sind</numerusform>
-        </translation>
-    </message>
-    <message numerus="yes">
-        <source>Checking %n captures</source>
-        <translation>
-            <numerusform>%n Aufnahme wird geprüft</numerusform>
-            <numerusform>%n Aufnahmen werden geprüft</numerusform>
         </translation>
     </message>
     <message numerus="yes">
@@ -15132,10 +15196,6 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>Live</source>
         <translation>Livebild</translation>
-    </message>
-    <message>
-        <source>Running the compensator</source>
-        <translation>Der Kompensator läuft</translation>
     </message>
     <message>
         <source>Reading the compensation</source>
@@ -16564,10 +16624,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Geändert seit der Anpassung: %1. Modell erneut anpassen.</translation>
     </message>
     <message>
-        <source>Fitting the nine-parameter model</source>
-        <translation>Das Neun-Parameter-Modell wird angepasst</translation>
-    </message>
-    <message>
         <source>Choose the points that fit, then press Fit the model.</source>
         <translation>Punkte wählen, die angepasst werden, dann „Modell anpassen“ drücken.</translation>
     </message>
@@ -17673,10 +17729,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Scans auswerten: jeder Übergang am Rand wird mit dem angepassten Kreis verglichen.</translation>
     </message>
     <message>
-        <source>Evaluating the scans</source>
-        <translation>Scans werden ausgewertet</translation>
-    </message>
-    <message>
         <source>Reading the evaluation</source>
         <translation>Auswertung wird gelesen</translation>
     </message>
@@ -18178,10 +18230,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Erneut schreiben. %1</translation>
     </message>
     <message>
-        <source>Writing the report</source>
-        <translation>Der Bericht wird geschrieben</translation>
-    </message>
-    <message>
         <source>No browser could be started. The report is here: %1</source>
         <translation>Es ließ sich kein Browser starten. Der Bericht liegt hier: %1</translation>
     </message>
@@ -18660,10 +18708,6 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>Profile shown</source>
         <translation>Gezeigtes Profil</translation>
-    </message>
-    <message>
-        <source>Checking the scans</source>
-        <translation>Scans werden geprüft</translation>
     </message>
     <message>
         <source>Changed since: %1. Check the scans again.</source>
@@ -19535,10 +19579,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Protokoll wird gelesen</translation>
     </message>
     <message>
-        <source>Identifying the model</source>
-        <translation>Modell wird identifiziert</translation>
-    </message>
-    <message>
         <source>Reading the model</source>
         <translation>Modell wird gelesen</translation>
     </message>
@@ -19894,10 +19934,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Maschine und Verfahrwege</translation>
     </message>
     <message>
-        <source>Checking the touches</source>
-        <translation>Antastungen werden geprüft</translation>
-    </message>
-    <message>
         <source>Reading the touches</source>
         <translation>Antastungen werden gelesen</translation>
     </message>
@@ -20147,10 +20183,6 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>Evaluate the touches: every feature is compared with the first cycle.</source>
         <translation>Antastungen auswerten: jedes Merkmal wird mit dem ersten Zyklus verglichen.</translation>
-    </message>
-    <message>
-        <source>Evaluating the touches</source>
-        <translation>Antastungen werden ausgewertet</translation>
     </message>
     <message>
         <source>Reading the evaluation</source>
@@ -20696,10 +20728,6 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>choose a campaign</source>
         <translation>Kampagne wählen</translation>
-    </message>
-    <message>
-        <source>Comparing before and after</source>
-        <translation>Vorher und nachher werden verglichen</translation>
     </message>
     <message>
         <source>Reading the comparison</source>

@@ -26,6 +26,10 @@
 #include "core/workflows/evaluate_campaign.h"
 #include "core/workflows/incoming.h"
 
+namespace spindrift {
+struct TaskInputs;
+}
+
 namespace spindrift::gui {
 
 /// The instruments a campaign may hold captures of.
@@ -128,6 +132,10 @@ class SessionModel : public QObject {
   [[nodiscard]] ResultState state(const std::string& kind) const;
   /// All tasks of the campaign at hand, which there must be. For the moment: not to be kept.
   [[nodiscard]] TaskGraph tasks() const;
+  /// What tasks of the campaign at hand, which there must be, work on.
+  [[nodiscard]] TaskInputs taskInputs() const;
+  /// Takes an earlier result that is what the task would give now as the latest. False: there is none.
+  bool takeEarlier(const std::string& kind);
   /// Tells the tasks that work on a result has been asked for, and how it ended when nothing is stored; see taskJob().
   void workStarted(const PendingResult& pending);
   void workEnded(const PendingResult& pending);

@@ -62,13 +62,6 @@ void TouchResults::set(const std::string& key, std::shared_ptr<const TouchEvalua
   evaluation_ = std::move(evaluation);
 }
 
-const CycleEvaluation* cyclesOf(const TouchEvaluation* evaluation) {
-  if (evaluation == nullptr) return nullptr;
-  if (!evaluation->hole_cycles.empty()) return &evaluation->hole_cycles.front();
-  if (!evaluation->ball_cycles.empty()) return &evaluation->ball_cycles.front();
-  return nullptr;
-}
-
 const Artefact* artefactOf(const Campaign& campaign, const TouchList* touches) {
   if (touches != nullptr && !touches->touches.empty()) {
     if (const Artefact* a = campaign.machine.findArtefact(touches->touches.front().artefact)) return a;

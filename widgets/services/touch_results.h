@@ -46,8 +46,6 @@ class TouchResults : public QObject {
   std::shared_ptr<const TouchEvaluation> evaluation_;
 };
 
-/// The cycles of the first artefact of an evaluation, whatever its kind; null if there are none.
-[[nodiscard]] const CycleEvaluation* cyclesOf(const TouchEvaluation* evaluation);
 /// The artefact of the machine that the touches are on, else its first; null if it has none.
 [[nodiscard]] const Artefact* artefactOf(const Campaign& campaign, const TouchList* touches);
 

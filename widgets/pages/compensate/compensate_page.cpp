@@ -251,7 +251,7 @@ void CompensatePage::refresh() {
   callout()->setAction({}, {});
   const bool possible = session().observations() != nullptr && (hasSource(CompensationSource::NineParameters) ||
                                                                 hasSource(CompensationSource::CompletedModel));
-  compute_->setEnabled(possible);
+  compute_->setEnabled(possible && canRun(compensation_result));
   if (!possible) {
     plan_.reset();
     shown_result_ = 0;
@@ -289,34 +289,22 @@ void CompensatePage::refresh() {
       });
     }
     // The plan is worked out again from what is stored: it takes less time than reading it would.
-    if (std::exchange(shown_result_, stored->id) != stored->id && !plan_) runPlan(false);
+    if (std::exchange(shown_result_, stored->id) != stored->id && !plan_)
+      showAgain(tr("Reading the compensation"), "compensation");
   }
   showPlan();
 }
 
-void CompensatePage::compute() {
-  runPlan(true);
+void CompensatePage::take(const TaskGiven& given) {
+  if (const auto plan = given.result.as<CompensationPlan>()) plan_ = *plan;
 }
 
-void CompensatePage::runPlan(bool store) {
-  const auto observations = session().observations();
-  if (!observations ||
-      !(hasSource(CompensationSource::NineParameters) || hasSource(CompensationSource::CompletedModel)))
-    return;
-  const PendingResult pending = session().begin(compensation_result);
-  const QString title = tr("Calculating the compensation");
-  const ResultWork work = [this, observations, asked = request(), choice = session().effects(),
-                           effects_file = session().effectsFile(),
-                           data = session().snapshot().campaign](JobContext& progress) -> Worked {
-    const CompensationPlan plan = planCompensation(*choice.applied(data, effects_file), *observations, asked, progress);
-    return {plan.json(), [this, plan] { plan_ = plan; }};
-  };
-  if (!store) return display(title, work);
-  run(title, pending, work, {.failed = [this](const QString& sentence) {
-        plan_.reset();
-        showPlan();
-        showFailure(sentence);
-      }});
+void CompensatePage::compute() {
+  runTask("compensation", {.failed = [this](const QString& sentence) {
+            plan_.reset();
+            showPlan();
+            showFailure(sentence);
+          }});
 }
 
 void CompensatePage::exportFiles(const QString& folder) {

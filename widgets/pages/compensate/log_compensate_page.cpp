@@ -70,7 +70,7 @@ LogCompensatePage::LogCompensatePage(PageContext page_context, QWidget* parent)
   content()->addWidget(tabs, 1);
   showHints(plot_);
   showHints(live_->plot());
-  connect(run_button_, &QPushButton::clicked, this, [this] { compensate(true); });
+  connect(run_button_, &QPushButton::clicked, this, [this] { runTask(log_result); });
   connect(&session(), &SessionModel::campaignChanged, this, [this] {
     result_.reset();
     result_model_ = 0;
@@ -82,40 +82,26 @@ std::int64_t LogCompensatePage::modelId() {
   return model == nullptr ? 0 : model->id;
 }
 
-void LogCompensatePage::compensate(bool store) {
-  const auto model = session().result("thermal");
-  if (!model) return;
-  const PendingResult pending = session().begin(log_result);
-  const ResultWork work = [this, stored = *model, snapshot = session().snapshot(),
-                           observations = session().observations()](JobContext& job) -> Worked {
-    const CampaignSeries all = campaignSeries(*snapshot.campaign, observations ? &*observations : nullptr, job);
-    const auto thermal = std::make_shared<const ThermalModel>(
-        ThermalModel::parse(JsonNode::parse(stored.payload.at("model").dump(), "model")));
-    const auto result = std::make_shared<const CompensatorRun>(
-        runCompensator(all.series, *thermal, judgedRange(stored.provenance.options, all.series), job));
-    return {result->result.json(), [this, result, thermal, id = stored.id] {
-              if (id != modelId()) return;
-              result_ = result;
-              model_ = thermal;
-              result_model_ = id;
-            }};
-  };
-  if (store) return run(tr("Running the compensator"), pending, work);
-  display(tr("Reading the compensation"), work);
+void LogCompensatePage::take(const TaskGiven& given) {
+  const auto found = given.result.as<LogCompensation>();
+  if (found == nullptr || given.origin.inputs != session().begin(log_result).origin.inputs) return;  // another model
+  result_ = std::shared_ptr<const CompensatorRun>(found, &found->run);
+  model_ = std::shared_ptr<const ThermalModel>(found, &found->model);
+  result_model_ = modelId();
 }
 
 void LogCompensatePage::refresh() {
   if (session().campaign() == nullptr) return;
   live_->refresh();
   const std::int64_t model = modelId();
-  run_button_->setEnabled(model != 0);
+  run_button_->setEnabled(model != 0 && canRun(log_result));
   if (result_model_ != model) result_.reset();
   const ResultState state = session().state(log_result);
   const StepStatus& status = context().workflow.status(StepId::Compensate);
   if (model == 0) {
     callout()->show(Tone::Attention, status.sentence);
   } else if (result_ == nullptr && state.current) {
-    compensate(false);
+    showAgain(tr("Reading the compensation"), log_result);
     return;
   } else if (result_ == nullptr || !state.current) {
     callout()->show(state.there ? Tone::Outdated : Tone::Accent, status.sentence);

@@ -22,13 +22,13 @@ class LogCompensatePage : public Page {
   void refresh() override;
   [[nodiscard]] std::vector<Exportable> exportables() override;
   [[nodiscard]] QPushButton* primaryButton() const override { return run_button_; }
-  void runAll() override { compensate(true); }
+  void runAll() override { runTask("log-compensation"); }
   [[nodiscard]] Plot* plot() const { return plot_; }
   [[nodiscard]] const std::shared_ptr<const CompensatorRun>& result() const { return result_; }
   [[nodiscard]] LiveCompensationPanel* live() const { return live_; }
 
  private:
-  void compensate(bool store);
+  void take(const TaskGiven& given) override;
   void showResult();
   [[nodiscard]] std::int64_t modelId();  ///< of the stored model, 0 if there is none
 

@@ -286,23 +286,12 @@ void DiscrepancyPage::refresh() {
 
 void DiscrepancyPage::search() {
   makePanelsSoon();  // while the search runs
-  if (!missing().isEmpty()) return;
-  const EffectOptions choice = session().effects();
-  DiscrepancyOptions options;
-  options.accept = choice.added;
-  options.reject = choice.rejected;
-  const PendingResult pending = session().begin(discrepancy_result);
-  run(tr("Searching for what the simulation lacks"), pending,
-      [options, choice, data = session().snapshot().campaign, file = session().effectsFile(),
-       observations = session().observations()](JobContext& progress) -> Worked {
-        return {tellDiscrepancy(*choice.applied(data, file), *observations, options, progress).json(), {}};
-      },
-      {.failed =
-           [this](const QString& sentence) {
-             refresh();
-             showFailure(sentence);
-           },
-       .cancelled = [this] { refresh(); }});
+  runTask(discrepancy_result, {.failed =
+                                   [this](const QString& sentence) {
+                                     refresh();
+                                     showFailure(sentence);
+                                   },
+                               .cancelled = [this] { refresh(); }});
 }
 
 void DiscrepancyPage::change(const QString& what, const EffectOptions& after) {
@@ -311,18 +300,9 @@ void DiscrepancyPage::change(const QString& what, const EffectOptions& after) {
 }
 
 bool DiscrepancyPage::showStored() {
-  const nlohmann::json wanted = session().effects().json();
-  Session* store = session().session();
-  if (store == nullptr) return false;
-  const std::vector<StoredResult> all = store->resultHeads(session().campaignId(), discrepancy_result);
-  for (auto it = all.rbegin(); it != all.rend(); ++it) {
-    if (it->provenance.options.value(option_name, nlohmann::json()) != wanted) continue;
-    if (!session().tasks().holds(*it)) continue;
-    session().storeResult(discrepancy_result, {}, store->payload(it->id));
-    refresh();
-    return true;
-  }
-  return false;
+  if (!session().takeEarlier(discrepancy_result)) return false;
+  refresh();
+  return true;
 }
 
 void DiscrepancyPage::changeEffects(const QString& what, const EffectOptions& after, bool typed) {
@@ -415,7 +395,7 @@ void DiscrepancyPage::removeLast() {
 
 void DiscrepancyPage::updateButtons() {
   const bool idle = !context().jobs.working();
-  search_->setEnabled(idle && missing().isEmpty());
+  search_->setEnabled(idle && missing().isEmpty() && canRun(discrepancy_result));
   const bool proposes = story_ != nullptr && what_ != nullptr &&
                         (story_->nextProposal() != nullptr || (!what_->chosen().empty() && !what_->chosenIsAdded()));
   add_->setVisible(proposes);

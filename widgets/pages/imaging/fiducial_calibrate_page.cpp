@@ -119,16 +119,7 @@ FiducialCalibratePage::FiducialCalibratePage(PageContext page_context, QWidget* 
   right->body()->addWidget(contrast_, 1);
   content()->addWidget(makeSplitter(left, right, 6, 6), 1);
   showHints(contrast_);
-  connect(evaluate_, &QPushButton::clicked, this, &FiducialCalibratePage::evaluate);
-}
-
-void FiducialCalibratePage::evaluate() {
-  const CampaignSnapshot snapshot = session().snapshot();
-  if (snapshot.campaign == nullptr) return;
-  const PendingResult pending = session().begin("evaluate");
-  run(tr("Evaluating the captures"), pending, [snapshot](JobContext& job) -> Worked {
-    return {payloadOf(evaluateCampaign(*snapshot.campaign, {}, job)), {}};
-  });
+  connect(evaluate_, &QPushButton::clicked, this, [this] { runTask("evaluate"); });
 }
 
 void FiducialCalibratePage::refresh() {

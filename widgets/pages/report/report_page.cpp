@@ -133,7 +133,7 @@ void ReportPage::refresh() {
   if (session().campaign() == nullptr) return;
   const bool other = noticeCampaign();
   callout()->setAction({}, {});
-  const bool possible = canReport(*session().campaign(), session().observations() != nullptr);
+  const bool possible = canRun(report_result);
   write_->setEnabled(possible);
   discrepancy_->setVisible(!session().campaign()->simulation.empty());
   const ReportTaskOptions asked = ReportTaskOptions::of(*session().session(), session().campaignId());
@@ -243,12 +243,7 @@ void ReportPage::keepOperator() {
 
 void ReportPage::write() {
   keepOperator();
-  if (!canReport(*session().campaign(), session().observations() != nullptr)) return;
-  const PendingResult pending = session().begin(report_result);
-  run(tr("Writing the report"), pending,
-      [task = ReportTask::of(session().tasks(), session().excludedItems())](JobContext& progress) -> Worked {
-        return {task.run(progress), {}};
-      });
+  runTask(report_result);
 }
 
 void ReportPage::openInBrowser() {

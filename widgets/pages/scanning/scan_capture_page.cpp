@@ -94,7 +94,7 @@ ScanCapturePage::ScanCapturePage(PageContext page_context, QWidget* parent)
   showHints(profile_);
   showHints(view_);
 
-  connect(check_, &QPushButton::clicked, this, &ScanCapturePage::check);
+  connect(check_, &QPushButton::clicked, this, [this] { runTask("check"); });
   connect(exclude_, &QPushButton::clicked, this, &ScanCapturePage::toggleExcluded);
   connect(colouring_, &Segments::chosen, this, &ScanCapturePage::loadCloud);
   connect(part_, &Segments::chosen, this, [this](int part) {
@@ -129,15 +129,6 @@ std::string ScanCapturePage::referenceOf(const std::string& cloud) const {
     if (c.artefact == own->artefact && !session().excluded().contains(fromCore(c.cloud))) return c.cloud;
   }
   return {};
-}
-
-void ScanCapturePage::check() {
-  const CampaignSnapshot snapshot = session().snapshot();
-  if (snapshot.campaign == nullptr) return;
-  const PendingResult pending = session().begin("check");
-  run(tr("Checking the scans"), pending, [snapshot](JobContext& job) -> Worked {
-    return {payloadOfScanChecks(checkScans(*snapshot.campaign, job)), {}};
-  });
 }
 
 void ScanCapturePage::refresh() {

@@ -7,11 +7,13 @@
 #include "widgets/panels/page_context.h"
 
 class QLabel;
+class QPushButton;
 class QSplitter;
 class QTableView;
 
 namespace spindrift::gui {
 
+class Callout;
 class Card;
 class IncomingService;
 class LiveTouchPanel;

@@ -15,9 +15,11 @@
 #include "widgets/panels/page_context.h"
 
 class QLineEdit;
+class QPushButton;
 
 namespace spindrift::gui {
 
+class Callout;
 class ImageView;
 class IncomingService;
 class NumberTile;

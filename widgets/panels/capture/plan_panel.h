@@ -9,11 +9,13 @@
 
 class QDoubleSpinBox;
 class QLabel;
+class QPushButton;
 class QSpinBox;
 class QTableView;
 
 namespace spindrift::gui {
 
+class Callout;
 class IncomingService;
 class RowsModel;
 

@@ -11,11 +11,13 @@
 #include "widgets/panels/page_context.h"
 
 class QComboBox;
+class QPushButton;
 class QTableWidget;
 
 namespace spindrift::gui {
 
 class ArtefactFields;
+class Callout;
 class View3D;
 
 class ArtefactEditor : public QWidget {

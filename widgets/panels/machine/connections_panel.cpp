@@ -24,6 +24,7 @@
 #include "widgets/commands/commands.h"
 #include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
+#include "widgets/jobs/task_job.h"
 #include "widgets/models/cells.h"
 #include "widgets/models/rows_model.h"
 #include "widgets/panels/common/fields_dialog.h"

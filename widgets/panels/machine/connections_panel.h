@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/connect/record.h"
+#include "widgets/export/exportable.h"
 #include "widgets/panels/page_context.h"
 
 class QLineEdit;

@@ -11,6 +11,7 @@
 #include "core/base/atomic_file.h"
 #include "core/base/error.h"
 #include "core/probing/evaluate_touches.h"
+#include "core/tasks/task_work.h"
 #include "widgets/commands/commands.h"
 #include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"

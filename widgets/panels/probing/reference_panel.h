@@ -7,9 +7,11 @@
 #include <filesystem>
 
 #include "core/probing/cycle_studies.h"
+#include "widgets/export/exportable.h"
 #include "widgets/panels/page_context.h"
 
 class QComboBox;
+class QPushButton;
 
 namespace spindrift {
 struct TouchEvaluation;
@@ -17,6 +19,7 @@ struct TouchEvaluation;
 
 namespace spindrift::gui {
 
+class Callout;
 class Plot;
 
 class ReferencePanel : public QWidget {

@@ -140,6 +140,10 @@ TEST_F(ScanningPages, WhatIsShownAsCurrentIsOfTheInputsAsTheyAre) {
   press();
   window_->undoStack().undo();
   calibrate = go<ProfilerCalibrationPage>(StepId::Calibrate);
+  // The model was made from an evaluation of its own, without that scan.
+  ASSERT_FALSE(window_->session().state("evaluate").current);
+  EXPECT_EQ(calibrate->callout()->tone(), Tone::Outdated);
+  press();
   ASSERT_TRUE(window_->session().state("evaluate").current);
   EXPECT_EQ(calibrate->registrations()->rowCount(), 2 * 6) << "current again, with all scans";
 }
