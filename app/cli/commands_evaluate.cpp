@@ -55,7 +55,7 @@ CommandResult evaluateInSession(const EvaluateArguments& a, JobContext& job) {
                      "folder of a campaign.");
   }
   SessionSource source(a.campaign, a.of_session, job);
-  const bool made = source.evaluate(job);
+  const bool made = !source.tasks().run("evaluate", job).empty();
   const StoredEvaluation& evaluation = *source.state().evaluation;
   if (!a.out.empty()) evaluation.observations.write(a.out);
   return {evaluation.details,

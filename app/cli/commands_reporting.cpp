@@ -10,7 +10,6 @@
 #include "core/base/atomic_file.h"
 #include "core/base/error.h"
 #include "core/base/json_reader.h"
-#include "core/tasks/report_task.h"
 #include "core/workflows/log_campaign.h"
 #include "core/workflows/manual.h"
 #include "core/workflows/report_workflow.h"
@@ -77,18 +76,16 @@ CommandResult reportInSession(const ReportArguments& a, bool pdf, JobContext& jo
                      "campaign.");
   }
   SessionSource source(a.campaign, a.of_session, job);
-  JobContext evaluating = job.part(0.0, 0.4);
-  if (source.tasks().facts().captures() && !source.tasks().facts().own_observations) source.evaluate(evaluating);
-  JobContext reporting = job.part(0.4, 1.0);
-  const TaskGraph tasks = source.tasks();
-  if (!canReport(*source.state().campaign, tasks.hasObservations()))
+  if (const std::string why = source.tasks().graph().whyNot("report"); !why.empty())
     throw InputError({a.campaign, ""}, "holds nothing to report: neither observations nor a log.");
-  const ResultOrigin origin = tasks.origin("report");
-  const ReportTask task = ReportTask::of(tasks, source.state().excluded);
-  const nlohmann::json payload = task.run(reporting);
-  const std::string bytes = readFile(task.folder / payload.at(pdf ? "pdf" : "file").get<std::string>());
+  const auto written = [&] {
+    const StoredResult* report = source.tasks().graph().latest("report");
+    const std::string name = report == nullptr ? "" : report->payload.value(pdf ? "pdf" : "file", std::string());
+    return source.tasks().graph().session().folder() / name;
+  };
+  source.tasks().run("report", job, !std::filesystem::is_regular_file(written()));
+  const std::string bytes = readFile(written());
   writeFileAtomically(a.out, bytes);
-  source.keep(origin, payload);
   return {{{"report", a.out}, {"bytes", bytes.size()}}, fmt::format("report written to {}\n", a.out), Done};
 }
 

@@ -8,7 +8,9 @@
 #include <string>
 
 #include "app/cli/command.h"
+#include "app/cli/session_source.h"
 #include "core/base/error.h"
+#include "core/base/text.h"
 #include "core/session/session.h"
 #include "core/tasks/steps.h"
 
@@ -18,6 +20,7 @@ namespace {
 struct SessionArguments {
   std::string folder;
   std::string campaign;
+  std::string run;  ///< task
 };
 
 nlohmann::json stepsOf(const Session& session, const CampaignRecord& record, std::string& summary) {
@@ -51,8 +54,16 @@ nlohmann::json stepsOf(const Session& session, const CampaignRecord& record, std
 }
 
 CommandResult stateOf(const SessionArguments& arguments, JobContext& job) {
-  Session session = Session::open(arguments.folder);
   CommandResult result;
+  if (!arguments.run.empty()) {
+    // Closed again before the session is looked at.
+    SessionSource source(arguments.folder, arguments.campaign, job);
+    const std::vector<std::string> ran = source.tasks().run(arguments.run, job);
+    result.json["ran"] = ran;
+    result.summary += ran.empty() ? fmt::format("{} is current: nothing was run\n", arguments.run)
+                                  : fmt::format("run: {}\n", joinedList(ran));
+  }
+  Session session = Session::open(arguments.folder);
   result.json["campaigns"] = nlohmann::json::array();
   for (const CampaignRecord& record : session.campaigns()) {
     if (!arguments.campaign.empty() && record.name != arguments.campaign) continue;
@@ -82,6 +93,14 @@ void addSessionCommands(CLI::App& app, CommandLine& line) {
   command->add_option("SESSION", arguments->folder, "Folder of the session; must not be open in the program")
       ->required();
   command->add_option("--campaign", arguments->campaign, "Only the campaign of this name")->type_name("NAME");
+  command
+      ->add_option("--run", arguments->run,
+                   "Run what is needed first so that this task is current, with the options that the session keeps, of "
+                   "--campaign or the campaign opened last: evaluate the captures before a fit, fit before a "
+                   "compensation; results that are still current are used again")
+      ->type_name("TASK")
+      ->check(CLI::IsMember({"check", "evaluate", "fit", "thermal", "log-compensation", "discrepancy", "compensation",
+                             "verify", "report"}));
 }
 
 }  // namespace spindrift::cli

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/imaging/focus.h"
 
+#include "core/imaging/contrast_curve.h"
+
 #include <ceres/ceres.h>
 #include <fmt/format.h>
 #include <glog/logging.h>
@@ -177,10 +179,7 @@ FocusMeasure measureFocus(const GrayImage& image) {
 }
 
 double FocusResult::curve(std::size_t set, double height_mm) const {
-  const double u = height_mm - peaks[set].peak_um * 1e-3;
-  double H = 1.0;
-  for (Eigen::Index t = 0; t < shape.size(); ++t) H += shape(t) * std::pow(u, t + 2);
-  return 1.0 / (peaks[set].gain * H);
+  return contrastAt(shape, peaks[set].gain, peaks[set].peak_um, height_mm);
 }
 
 FocusResult fitFocus(const std::vector<FocusSet>& sets, const FocusOptions& options) {

@@ -85,8 +85,7 @@ ReportTask ReportTask::of(const TaskGraph& graph, const ExcludedItems& excluded)
   auto campaign = std::make_shared<Campaign>(*withoutExcluded(graph.data(), excluded));
   if (campaign->observations)
     campaign->observations = observationsToFit(graph.data(), nullptr, excluded, clockOffsetsOf(session, id));
-  if (effects.effects.is_object()) campaign->effects = effects.write(session, id);
-  task.campaign = std::move(campaign);
+  task.campaign = effects.applied(std::move(campaign), EffectOptions::file(session, id));
 
   const ReportTaskOptions asked = ReportTaskOptions::of(session, id);
   task.options.operator_name = asked.operator_name;

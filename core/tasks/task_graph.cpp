@@ -277,19 +277,42 @@ TaskStatus TaskGraph::status(const std::string& task) const {
   return status;
 }
 
-std::vector<std::string> TaskGraph::needed(const std::string& task) const {
+std::vector<std::string> TaskGraph::runFirst(const std::string& task) const {
+  std::vector<std::string> first = madeFrom(task);
+  if (task == "compensation" && latest_("fit") == nullptr && EffectOptions::of(session_, campaign_).added.empty())
+    first.emplace_back("fit");
+  return first;
+}
+
+std::vector<std::string> TaskGraph::needed(const std::string& task, std::string& why) const {
   std::vector<std::string> order;
-  for (const std::string& kind : madeFrom(task)) {
-    for (std::string& first : needed(kind))
+  for (const std::string& kind : runFirst(task)) {
+    for (std::string& first : needed(kind, why))
       if (std::find(order.begin(), order.end(), first) == order.end()) order.push_back(std::move(first));
+    if (!why.empty()) return {};
   }
   const TaskStatus now = status(task);
   const std::vector<std::string> all = tasks();
   const bool possible = std::find(all.begin(), all.end(), task) != all.end();
-  if (now.state == TaskState::Blocked && (order.empty() || !possible))
-    throw InputError({data_->folder, ""}, fmt::format("{} cannot be run: {}", task, now.reason));
+  if (now.state == TaskState::Blocked && (order.empty() || !possible)) {
+    why = now.reason;
+    return {};
+  }
   if (!order.empty() || !now.current) order.push_back(task);
   return order;
+}
+
+std::vector<std::string> TaskGraph::needed(const std::string& task) const {
+  std::string why;
+  std::vector<std::string> order = needed(task, why);
+  if (!why.empty()) throw InputError({data_->folder, ""}, fmt::format("{} cannot be run: {}", task, why));
+  return order;
+}
+
+std::string TaskGraph::whyNot(const std::string& task) const {
+  std::string why;
+  (void)needed(task, why);
+  return why;
 }
 
 }  // namespace spindrift

@@ -89,6 +89,8 @@ class TaskGraph {
                                     const nlohmann::json& options = nlohmann::json::object()) const;
   /// What has to be run, in this order, so that the task is current; empty if it is. Throws InputError: blocked.
   [[nodiscard]] std::vector<std::string> needed(const std::string& task) const;
+  /// Why the task cannot be run, whatever is run first; empty: it can.
+  [[nodiscard]] std::string whyNot(const std::string& task) const;
 
   [[nodiscard]] const StoredResult* latest(const std::string& kind) const { return latest_(kind); }
   [[nodiscard]] const CampaignFacts& facts() const { return facts_; }
@@ -102,6 +104,10 @@ class TaskGraph {
  private:
   [[nodiscard]] nlohmann::json options(const std::string& task) const;
   [[nodiscard]] std::vector<std::string> madeFrom(const std::string& task) const;
+  /// What has to be there before: what it is made from, and the fit that a compensation is for.
+  [[nodiscard]] std::vector<std::string> runFirst(const std::string& task) const;
+  /// Empty `why`: as `needed`.
+  [[nodiscard]] std::vector<std::string> needed(const std::string& task, std::string& why) const;
   [[nodiscard]] nlohmann::json inputsOfResults(const std::string& task) const;
   [[nodiscard]] std::string blockedBecause(const std::string& task) const;
 

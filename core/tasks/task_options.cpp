@@ -3,7 +3,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "core/base/atomic_file.h"
+#include "core/workflows/campaign_series.h"
 
 namespace spindrift {
 
@@ -46,11 +50,25 @@ std::filesystem::path EffectOptions::file(const Session& session, std::int64_t c
   return session.folder() / "effects" / fmt::format("{}.json", campaign);
 }
 
-std::filesystem::path EffectOptions::write(const Session& session, std::int64_t campaign) const {
-  const std::filesystem::path target = std::filesystem::absolute(file(session, campaign));
-  std::filesystem::create_directories(target.parent_path());
-  writeFileAtomically(target, effects.dump(2) + "\n");
-  return target;
+bool EffectOptions::considers(const std::string& id) const {
+  return std::find(rejected.begin(), rejected.end(), id) == rejected.end();
+}
+
+void EffectOptions::consider(const std::string& id, bool considered) {
+  std::erase(rejected, id);
+  if (considered) return;
+  std::erase(added, id);
+  rejected.push_back(id);
+}
+
+std::shared_ptr<const Campaign> EffectOptions::applied(std::shared_ptr<const Campaign> campaign,
+                                                       const std::filesystem::path& file) const {
+  if (!effects.is_object()) return campaign;
+  std::filesystem::create_directories(file.parent_path());
+  writeFileAtomically(file, effects.dump(2) + "\n");
+  auto copy = std::make_shared<Campaign>(*campaign);
+  copy->effects = std::filesystem::absolute(file);
+  return copy;
 }
 
 NineParameterOptions nineParameterOptions(const nlohmann::json& json) {
@@ -60,6 +78,46 @@ NineParameterOptions nineParameterOptions(const nlohmann::json& json) {
   options.points = json.value("points", std::vector<std::string>());
   options.robust = static_cast<RobustLoss>(json.value("robust", 0));
   return options;
+}
+
+HoleCycleOptions cycleOptions(const nlohmann::json& json) {
+  HoleCycleOptions options;
+  if (!json.is_object()) return options;
+  options.second_axis = json.value("second_axis", false);
+  if (options.second_axis) {
+    StableLength length;
+    length.growth_um_per_m = json.value("growth_um_per_m", 0.0);
+    length.uncertainty_um_per_m = json.value("trust_um_per_m", 0.1);
+    options.stable_length = length;
+  }
+  return options;
+}
+
+IdentifyRequest identifyRequest(const nlohmann::json& json, const TimeSeries& series) {
+  IdentifyRequest r;
+  const std::vector<std::string> outputs = outputSignals(series);
+  r.log = series.file;
+  r.output = json.value("output", std::string());
+  if (std::find(outputs.begin(), outputs.end(), r.output) == outputs.end() && !outputs.empty())
+    r.output = outputs.front();
+  const double first = series.time_s.front();
+  const double last = series.time_s.back();
+  const double middle = std::round(0.5 * (first + last));
+  const auto range = [&](const char* key, double from, double to) {
+    const nlohmann::json value = json.value(key, nlohmann::json());
+    if (value.is_array() && value.size() == 2) return TimeRange{value[0].get<double>(), value[1].get<double>()};
+    return TimeRange{from, to};
+  };
+  r.train = range("train", first, middle);
+  r.test = range("test", middle, last);
+  r.method = json.value("method", std::string("response"));
+  // Cycles are too rare for the methods that need a value at every row.
+  if (const Signal* signal = series.find(r.output); signal != nullptr && isSparse(*signal)) r.method = "response";
+  for (const auto& name : json.value("inputs", nlohmann::json::array())) {
+    const auto text = name.get<std::string>();
+    if (series.find(text) != nullptr && text != r.output) r.inputs.push_back(text);
+  }
+  return r;
 }
 
 CompensationRequest compensationRequest(const Session& session, std::int64_t campaign, bool fitted) {

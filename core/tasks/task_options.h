@@ -5,13 +5,17 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
+#include "core/machine/campaign.h"
 #include "core/machine/nine_parameter_model.h"
+#include "core/probing/hole_cycle.h"
 #include "core/session/session.h"
 #include "core/workflows/compensation_workflow.h"
+#include "core/workflows/thermal_workflow.h"
 #include "core/workflows/verify_compensation.h"
 
 namespace spindrift {
@@ -47,14 +51,24 @@ struct EffectOptions {
   nlohmann::json effects;  ///< effects.json as edited; null: as campaign.json names it
   [[nodiscard]] static EffectOptions of(const Session& session, std::int64_t campaign);
   [[nodiscard]] nlohmann::json json() const;
+  [[nodiscard]] bool considers(const std::string& id) const;
+  /// Takes an effect out of both lists, or puts it among the rejected.
+  void consider(const std::string& id, bool considered);
   /// The file in the session's folder that holds the effects as edited.
   [[nodiscard]] static std::filesystem::path file(const Session& session, std::int64_t campaign);
-  /// Puts them down there; returns the absolute path.
-  std::filesystem::path write(const Session& session, std::int64_t campaign) const;
+  /// The campaign with the effects as edited, which are put down in `file`; the campaign itself if none were. Any
+  /// thread. Throws InputError if they cannot be written.
+  [[nodiscard]] std::shared_ptr<const Campaign> applied(std::shared_ptr<const Campaign> campaign,
+                                                        const std::filesystem::path& file) const;
 };
 
 /// Of the model of one thermal state.
 [[nodiscard]] NineParameterOptions nineParameterOptions(const nlohmann::json& json);
+
+/// Of the model of every cycle of a hole bar.
+[[nodiscard]] HoleCycleOptions cycleOptions(const nlohmann::json& json);
+/// Of the model over time: what was not chosen is chosen by the series (first output, first and second half).
+[[nodiscard]] IdentifyRequest identifyRequest(const nlohmann::json& json, const TimeSeries& series);
 
 /// What is asked of the compensation; `fitted` says whether there is a fit to compensate with.
 [[nodiscard]] CompensationRequest compensationRequest(const Session& session, std::int64_t campaign, bool fitted);

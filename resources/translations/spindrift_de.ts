@@ -474,6 +474,73 @@
     </message>
 </context>
 <context>
+    <name>Tasks</name>
+    <message>
+        <source>Not begun: another campaign was chosen while what it needs was worked out.</source>
+        <translation>Nicht begonnen: Während der Vorarbeiten dafür wurde eine andere Kampagne gewählt.</translation>
+    </message>
+    <message>
+        <source>Checking the captures</source>
+        <translation>Aufnahmen werden geprüft</translation>
+    </message>
+    <message>
+        <source>Checking the touches</source>
+        <translation>Antastungen werden geprüft</translation>
+    </message>
+    <message>
+        <source>Checking the scans</source>
+        <translation>Scans werden geprüft</translation>
+    </message>
+    <message>
+        <source>Evaluating the captures</source>
+        <translation>Aufnahmen werden ausgewertet</translation>
+    </message>
+    <message>
+        <source>Evaluating the touches</source>
+        <translation>Antastungen werden ausgewertet</translation>
+    </message>
+    <message>
+        <source>Evaluating the scans</source>
+        <translation>Scans werden ausgewertet</translation>
+    </message>
+    <message>
+        <source>Fitting all cycles</source>
+        <translation>Alle Zyklen werden angepasst</translation>
+    </message>
+    <message>
+        <source>Finding the six errors</source>
+        <translation>Sechs Abweichungen werden bestimmt</translation>
+    </message>
+    <message>
+        <source>Fitting the nine-parameter model</source>
+        <translation>Das Neun-Parameter-Modell wird angepasst</translation>
+    </message>
+    <message>
+        <source>Identifying the model</source>
+        <translation>Modell wird identifiziert</translation>
+    </message>
+    <message>
+        <source>Running the compensator</source>
+        <translation>Der Kompensator läuft</translation>
+    </message>
+    <message>
+        <source>Searching for what the simulation lacks</source>
+        <translation>Suche nach dem, was in der Simulation fehlt</translation>
+    </message>
+    <message>
+        <source>Calculating the compensation</source>
+        <translation>Kompensation wird berechnet</translation>
+    </message>
+    <message>
+        <source>Comparing before and after</source>
+        <translation>Vorher und nachher werden verglichen</translation>
+    </message>
+    <message>
+        <source>Writing the report</source>
+        <translation>Der Bericht wird geschrieben</translation>
+    </message>
+</context>
+<context>
     <name>VerifyPage</name>
     <message>
         <source>After, range over the points</source>
@@ -9390,6 +9457,38 @@ endgültig fehlgeschlagen: {}</translation>
         <source>{} and {} moved together in training and part here: which of them causes what, the training cannot tell; let one move without the other there.</source>
         <translation>{} und {} haben sich im Training gemeinsam bewegt und trennen sich hier: Welche davon was verursacht, sagt das Training nicht; lassen Sie dort einmal eine ohne die andere laufen.</translation>
     </message>
+    <message>
+        <source>the model has no output to compensate.</source>
+        <translation>das Modell hat keine Ausgangsgröße, die kompensiert werden könnte.</translation>
+    </message>
+    <message>
+        <source>the log has no column {} that the model is of.</source>
+        <translation>das Protokoll hat keine Spalte {}, zu der das Modell gehört.</translation>
+    </message>
+    <message>
+        <source>Choose the campaign that was measured with the compensation on first.</source>
+        <translation>Zuerst die Kampagne wählen, die mit eingeschalteter Kompensation gemessen wurde.</translation>
+    </message>
+    <message>
+        <source>The touches make up no whole cycle.</source>
+        <translation>Die Antastungen ergeben keinen vollständigen Zyklus.</translation>
+    </message>
+    <message>
+        <source>lists no touches.</source>
+        <translation>führt keine Antastungen auf.</translation>
+    </message>
+    <message>
+        <source>the log has a single row.</source>
+        <translation>das Protokoll hat nur eine Zeile.</translation>
+    </message>
+    <message>
+        <source>the result of {} was not kept.</source>
+        <translation>das Ergebnis von {} wurde nicht behalten.</translation>
+    </message>
+    <message>
+        <source>{} is no task of a campaign.</source>
+        <translation>{} ist keine Aufgabe einer Kampagne.</translation>
+    </message>
 </context>
 <context>
     <name>help</name>
@@ -10939,10 +11038,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Scanmodell wählen</translation>
     </message>
     <message>
-        <source>Finding the six errors</source>
-        <translation>Sechs Abweichungen werden bestimmt</translation>
-    </message>
-    <message>
         <source>Reading the six errors</source>
         <translation>Sechs Abweichungen werden gelesen</translation>
     </message>
@@ -11998,10 +12093,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Höhere Ordnung verwenden</translation>
     </message>
     <message>
-        <source>Calculating the compensation</source>
-        <translation>Kompensation wird berechnet</translation>
-    </message>
-    <message>
         <source>Files written to %1: %2</source>
         <translation>Dateien nach %1 geschrieben: %2</translation>
     </message>
@@ -12078,6 +12169,10 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>What remains of state %1 with the correction</source>
         <translation>Was vom Zustand %1 mit der Korrektur verbleibt</translation>
+    </message>
+    <message>
+        <source>Reading the compensation</source>
+        <translation>Die Kompensation wird gelesen</translation>
     </message>
 </context>
 <context>
@@ -12543,10 +12638,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Am stärksten korrelierte Parameter stehen hier nach der Anpassung.</translation>
     </message>
     <message>
-        <source>Fitting all cycles</source>
-        <translation>Alle Zyklen werden angepasst</translation>
-    </message>
-    <message>
         <source>Reading the cycles</source>
         <translation>Zyklen werden gelesen</translation>
     </message>
@@ -12737,10 +12828,6 @@ endgültig fehlgeschlagen: {}</translation>
         <source>Value / u</source>
         <translation>Wert / u</translation>
     </message>
-    <message>
-        <source>The touches make up no whole cycle.</source>
-        <translation>Die Antastungen ergeben keinen vollständigen Zyklus.</translation>
-    </message>
 </context>
 <context>
     <name>spindrift::gui::DiscrepancyPage</name>
@@ -12903,10 +12990,6 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>And %1 more.</source>
         <translation>Und %1 weitere.</translation>
-    </message>
-    <message>
-        <source>Searching for what the simulation lacks</source>
-        <translation>Suche nach dem, was in der Simulation fehlt</translation>
     </message>
     <message>
         <source>The effect that is being edited has not been taken over.</source>
@@ -13978,10 +14061,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Aufnahmen auswerten: das Maximum jeder Kurve ist die Höhe ihrer Messmarke.</translation>
     </message>
     <message>
-        <source>Evaluating the captures</source>
-        <translation>Aufnahmen werden ausgewertet</translation>
-    </message>
-    <message>
         <source>Press Evaluate the captures. Bad ones are listed with their reason, the rest is evaluated.</source>
         <translation>„Aufnahmen auswerten“ drücken. Unbrauchbare werden mit Grund aufgeführt, die übrigen ausgewertet.</translation>
     </message>
@@ -14327,13 +14406,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>
             <numerusform>eine ist</numerusform>
             <numerusform>%n sind</numerusform>
-        </translation>
-    </message>
-    <message numerus="yes">
-        <source>Checking %n captures</source>
-        <translation>
-            <numerusform>%n Aufnahme wird geprüft</numerusform>
-            <numerusform>%n Aufnahmen werden geprüft</numerusform>
         </translation>
     </message>
     <message numerus="yes">
@@ -15128,10 +15200,6 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>Live</source>
         <translation>Livebild</translation>
-    </message>
-    <message>
-        <source>Running the compensator</source>
-        <translation>Der Kompensator läuft</translation>
     </message>
     <message>
         <source>Reading the compensation</source>
@@ -16560,10 +16628,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Geändert seit der Anpassung: %1. Modell erneut anpassen.</translation>
     </message>
     <message>
-        <source>Fitting the nine-parameter model</source>
-        <translation>Das Neun-Parameter-Modell wird angepasst</translation>
-    </message>
-    <message>
         <source>Choose the points that fit, then press Fit the model.</source>
         <translation>Punkte wählen, die angepasst werden, dann „Modell anpassen“ drücken.</translation>
     </message>
@@ -17669,10 +17733,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Scans auswerten: jeder Übergang am Rand wird mit dem angepassten Kreis verglichen.</translation>
     </message>
     <message>
-        <source>Evaluating the scans</source>
-        <translation>Scans werden ausgewertet</translation>
-    </message>
-    <message>
         <source>Reading the evaluation</source>
         <translation>Auswertung wird gelesen</translation>
     </message>
@@ -18174,10 +18234,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Erneut schreiben. %1</translation>
     </message>
     <message>
-        <source>Writing the report</source>
-        <translation>Der Bericht wird geschrieben</translation>
-    </message>
-    <message>
         <source>No browser could be started. The report is here: %1</source>
         <translation>Es ließ sich kein Browser starten. Der Bericht liegt hier: %1</translation>
     </message>
@@ -18656,10 +18712,6 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>Profile shown</source>
         <translation>Gezeigtes Profil</translation>
-    </message>
-    <message>
-        <source>Checking the scans</source>
-        <translation>Scans werden geprüft</translation>
     </message>
     <message>
         <source>Changed since: %1. Check the scans again.</source>
@@ -19531,10 +19583,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Protokoll wird gelesen</translation>
     </message>
     <message>
-        <source>Identifying the model</source>
-        <translation>Modell wird identifiziert</translation>
-    </message>
-    <message>
         <source>Reading the model</source>
         <translation>Modell wird gelesen</translation>
     </message>
@@ -19890,10 +19938,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Maschine und Verfahrwege</translation>
     </message>
     <message>
-        <source>Checking the touches</source>
-        <translation>Antastungen werden geprüft</translation>
-    </message>
-    <message>
         <source>Reading the touches</source>
         <translation>Antastungen werden gelesen</translation>
     </message>
@@ -20143,10 +20187,6 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>Evaluate the touches: every feature is compared with the first cycle.</source>
         <translation>Antastungen auswerten: jedes Merkmal wird mit dem ersten Zyklus verglichen.</translation>
-    </message>
-    <message>
-        <source>Evaluating the touches</source>
-        <translation>Antastungen werden ausgewertet</translation>
     </message>
     <message>
         <source>Reading the evaluation</source>
@@ -20692,10 +20732,6 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>choose a campaign</source>
         <translation>Kampagne wählen</translation>
-    </message>
-    <message>
-        <source>Comparing before and after</source>
-        <translation>Vorher und nachher werden verglichen</translation>
     </message>
     <message>
         <source>Reading the comparison</source>

@@ -147,13 +147,6 @@
         </translation>
     </message>
     <message numerus="yes">
-        <source>Checking %n captures</source>
-        <translation>
-            <numerusform>Checking %n capture</numerusform>
-            <numerusform>Checking %n captures</numerusform>
-        </translation>
-    </message>
-    <message numerus="yes">
         <source>Of %n captures %1 can be used, %2 excluded.</source>
         <translation>
             <numerusform>Of %n capture %1 can be used, %2 excluded.</numerusform>

@@ -53,6 +53,36 @@ const std::map<std::string, std::set<std::string>>& allowedIncludes() {
   return table;
 }
 
+/// The same for the folders of widgets.
+const std::map<std::string, std::set<std::string>>& allowedIncludesOfWidgets() {
+  static const std::map<std::string, std::set<std::string>> table = [] {
+    std::map<std::string, std::set<std::string>> t;
+    t["theme"] = {};
+    t["view3d"] = {"theme"};
+    t["common"] = {"theme"};
+    t["report"] = {"theme"};
+    t["image_view"] = {"theme", "common"};
+    t["plots"] = {"theme", "common", "view3d"};
+    t["export"] = {"theme", "common", "image_view", "plots", "report", "view3d"};
+    t["models"] = {"theme", "common"};
+    t["recording"] = {};
+    t["commands"] = {"models"};
+    t["workflow"] = {"theme", "common", "models"};
+    t["jobs"] = {"theme", "common", "models"};
+    t["services"] = {"theme", "common", "models", "jobs", "image_view"};
+    std::set<std::string> below = {"theme",  "view3d", "common",   "report",   "image_view", "plots",
+                                   "export", "models", "commands", "workflow", "jobs",       "services"};
+    t["panels"] = below;
+    below.insert("panels");
+    t["teaching"] = below;
+    t["pages"] = below;
+    below.insert({"teaching", "pages", "recording"});
+    t["shell"] = below;
+    return t;
+  }();
+  return table;
+}
+
 std::vector<fs::path> sources(const fs::path& folder) {
   std::vector<fs::path> files;
   if (!fs::exists(folder)) return files;
@@ -130,17 +160,37 @@ TEST(Layers, WidgetsDoNotIncludeTheProgram) {
   }
 }
 
-/// Pages are put together from panels, views and services, which know no page.
-TEST(Layers, OnlyTheShellAndPagesKnowPages) {
+/// Pages are put together from panels, panels from views; services show nothing. None of these knows a page.
+TEST(Layers, FoldersOfWidgetsIncludeOnlyWhatIsBelowThem) {
+  const std::map<std::string, std::set<std::string>>& allowed = allowedIncludesOfWidgets();
   const fs::path root = fs::path(SPINDRIFT_SOURCE_DIR) / "widgets";
+  std::size_t checked = 0;
   std::vector<std::string> wrong;
   for (const fs::path& file : sources(root)) {
     const std::string folder = fs::relative(file, root).begin()->string();
-    if (folder == "pages" || folder == "shell") continue;
+    ASSERT_TRUE(allowed.contains(folder)) << "widgets/" << folder << " has no place among the layers";
     for (const std::string& include : includesOf(file)) {
-      const bool connections = include.starts_with("widgets/pages/machine/connections_service");
-      if (include.starts_with("widgets/pages/") && !connections)
+      if (!include.starts_with("widgets/")) continue;
+      const std::string other = include.substr(8, include.find('/', 8) - 8);
+      if (other != folder && !allowed.at(folder).contains(other))
         wrong.push_back(file.string() + " includes " + include);
+      ++checked;
+    }
+  }
+  EXPECT_THAT(wrong, ::testing::IsEmpty());
+  EXPECT_GT(checked, 30U);
+}
+
+/// What several areas show stands in widgets/panels/common.
+TEST(Layers, PanelsKnowOnlyPanelsOfTheirArea) {
+  const fs::path root = fs::path(SPINDRIFT_SOURCE_DIR) / "widgets/panels";
+  std::vector<std::string> wrong;
+  for (const fs::path& file : sources(root)) {
+    const std::string area = fs::relative(file, root).begin()->string();
+    for (const std::string& include : includesOf(file)) {
+      if (!include.starts_with("widgets/panels/") || include == "widgets/panels/page_context.h") continue;
+      const std::string other = include.substr(15, include.find('/', 15) - 15);
+      if (other != area && other != "common") wrong.push_back(file.string() + " includes " + include);
     }
   }
   EXPECT_THAT(wrong, ::testing::IsEmpty());

@@ -6,6 +6,7 @@
 
 #include "core/base/error.h"
 #include "core/tasks/task_options.h"
+#include "core/tasks/task_work.h"
 #include "widgets/common/core_sentence.h"
 #include "widgets/common/preferences.h"
 
@@ -192,6 +193,24 @@ std::string SessionModel::inputsKey() const {
 
 TaskGraph SessionModel::tasks() const {
   return {*session_, state_.id, state_.campaign, [this](const std::string& kind) { return latest(kind); }, ledger_};
+}
+
+TaskInputs SessionModel::taskInputs() const {
+  TaskInputs inputs;
+  inputs.campaign = state_.campaign;
+  inputs.excluded = state_.excluded;
+  inputs.observations = observations();
+  return inputs;
+}
+
+bool SessionModel::takeEarlier(const std::string& kind) {
+  if (session_ == nullptr || state_.campaign == nullptr) return false;
+  const std::vector<StoredResult> all = session_->resultHeads(state_.id, kind);
+  const auto found =
+      std::find_if(all.rbegin(), all.rend(), [this](const StoredResult& head) { return tasks().holds(head); });
+  if (found == all.rend()) return false;
+  storeResult(kind, {}, session_->payload(found->id));
+  return true;
 }
 
 PendingResult SessionModel::begin(const std::string& kind, const nlohmann::json& options) const {
@@ -392,6 +411,14 @@ std::string SessionModel::campaignKey(const std::string& key) const {
 
 nlohmann::json SessionModel::campaignSetting(const std::string& key, const nlohmann::json& otherwise) const {
   return session_ == nullptr ? otherwise : spindrift::campaignSetting(*session_, state_.id, key, otherwise);
+}
+
+EffectOptions SessionModel::effects() const {
+  return session_ == nullptr ? EffectOptions() : EffectOptions::of(*session_, state_.id);
+}
+
+std::filesystem::path SessionModel::effectsFile() const {
+  return session_ == nullptr ? std::filesystem::path() : EffectOptions::file(*session_, state_.id);
 }
 
 std::string SessionModel::draftKey(const std::string& name) const {

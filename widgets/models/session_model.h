@@ -21,9 +21,14 @@
 #include "core/session/session.h"
 #include "core/tasks/campaign_state.h"
 #include "core/tasks/task_graph.h"
+#include "core/tasks/task_options.h"
 #include "core/workflows/clock_offsets.h"
 #include "core/workflows/evaluate_campaign.h"
 #include "core/workflows/incoming.h"
+
+namespace spindrift {
+struct TaskInputs;
+}
 
 namespace spindrift::gui {
 
@@ -127,6 +132,10 @@ class SessionModel : public QObject {
   [[nodiscard]] ResultState state(const std::string& kind) const;
   /// All tasks of the campaign at hand, which there must be. For the moment: not to be kept.
   [[nodiscard]] TaskGraph tasks() const;
+  /// What tasks of the campaign at hand, which there must be, work on.
+  [[nodiscard]] TaskInputs taskInputs() const;
+  /// Takes an earlier result that is what the task would give now as the latest. False: there is none.
+  bool takeEarlier(const std::string& kind);
   /// Tells the tasks that work on a result has been asked for, and how it ended when nothing is stored; see taskJob().
   void workStarted(const PendingResult& pending);
   void workEnded(const PendingResult& pending);
@@ -175,6 +184,9 @@ class SessionModel : public QObject {
   /// it for all campaigns together: that stands where a campaign has nothing of its own.
   [[nodiscard]] std::string campaignKey(const std::string& key) const;
   [[nodiscard]] nlohmann::json campaignSetting(const std::string& key, const nlohmann::json& otherwise) const;
+  /// What the user decided about effects for the campaign at hand; and the file of the effects as edited.
+  [[nodiscard]] EffectOptions effects() const;
+  [[nodiscard]] std::filesystem::path effectsFile() const;
   /// What was typed and is not applied yet, for the campaign at hand: on the disk with every change, so that no other
   /// page, campaign or session and no crash loses it; see Draft (widgets/commands). {"base": what was being edited,
   /// "typed": …}; null: nothing.

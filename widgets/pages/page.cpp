@@ -5,8 +5,10 @@
 #include <QTabWidget>
 #include <QVBoxLayout>
 
+#include "core/base/error.h"
 #include "core/tasks/task_options.h"
 #include "widgets/commands/commands.h"
+#include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
 
 namespace spindrift::gui {
@@ -84,10 +86,33 @@ void Page::showFailure(const QString& sentence) {
   callout_->show(Tone::Bad, sentence);
 }
 
-void Page::run(const QString& title, const PendingResult& pending, ResultWork work, WorkEnds ends) {
+void Page::runTask(const std::string& task, WorkEnds ends) {
   if (!ends.done) ends.done = [this] { refresh(); };
   if (!ends.failed) ends.failed = [this](const QString& sentence) { showFailure(sentence); };
-  context_.jobs.run(taskJob(context_.session, pending, title, std::move(work), std::move(ends)));
+  spindrift::gui::runTask(context_.session, context_.jobs, task,
+                          {.inputs = [this] { return taskInputs(); },
+                           .take = [this](const TaskGiven& given) { take(given); },
+                           .done = std::move(ends.done),
+                           .failed = std::move(ends.failed),
+                           .cancelled = std::move(ends.cancelled)});
+}
+
+void Page::runAlone(const std::string& task) {
+  if (canRun(task) && session().tasks().needed(task).size() <= 1) runTask(task);
+}
+
+void Page::showAgain(const QString& title, const std::string& task) {
+  try {
+    display(title,
+            [this, detail = detailOfTask(session(), task, taskInputs())](JobContext& job) -> std::function<void()> {
+              return [this, now = detail(job)] {
+                if (const TaskGiven* given = now()) take(*given);
+                refresh();
+              };
+            });
+  } catch (const InputError& e) {
+    showFailure(coreSentence(e.what()));
+  }
 }
 
 void Page::run(const QString& title, Work work) {
@@ -99,15 +124,6 @@ void Page::display(const QString& title, Work work) {
   job.queue = JobQueue::Display;
   job.key = (stepTitle(step_) + QLatin1Char('/') + title).toStdString();
   context_.jobs.run(std::move(job));
-}
-
-void Page::display(const QString& title, ResultWork work) {
-  display(title, Work([this, work = std::move(work)](JobContext& context) -> std::function<void()> {
-            return [this, take = work(context).take] {
-              if (take) take();
-              refresh();
-            };
-          }));
 }
 
 void PageRegistry::add(StepId step, Applies applies, Factory factory, const char* key) {

@@ -9,12 +9,9 @@
 #include <memory>
 #include <vector>
 
-#include "widgets/commands/campaign_undo.h"
 #include "widgets/export/exportable.h"
-#include "widgets/jobs/job_runner.h"
-#include "widgets/jobs/task_job.h"
-#include "widgets/models/session_model.h"
-#include "widgets/workflow/workflow.h"
+#include "widgets/jobs/task_run.h"
+#include "widgets/panels/page_context.h"
 
 class QHBoxLayout;
 class QVBoxLayout;
@@ -23,15 +20,6 @@ namespace spindrift::gui {
 
 class Callout;
 class WrappedLabel;
-
-/// What every page works with.
-struct PageContext {
-  SessionModel& session;
-  JobRunner& jobs;
-  CampaignUndo& undo;
-  Workflow& workflow;
-  std::function<void(const QString&)> hint;  ///< a short text at the bottom: the value under the cursor
-};
 
 class Page : public QWidget {
   Q_OBJECT
@@ -67,14 +55,23 @@ class Page : public QWidget {
   using Work = std::function<std::function<void()>(JobContext&)>;
   // Jobs. What they give is shown, and their failure is told in the page's callout, only while the campaign that they
   // were started for is at hand.
-  /// Works on a result: it is stored whatever is at hand then, and the page is refreshed. `ends` in place of that.
-  void run(const QString& title, const PendingResult& pending, ResultWork work, WorkEnds ends = {});
+  /// Runs a task, and before it what it needs (widgets/jobs/task_run.h). The results are stored whatever is at hand
+  /// then; `take` gets the task's own, and the page is refreshed. `ends` in place of that.
+  void runTask(const std::string& task, WorkEnds ends = {});
+  /// For a change of options: runs a task unless it cannot be run, or other work would have to come first.
+  void runAlone(const std::string& task);
+  /// Whether a task can be run, with what it needs first.
+  [[nodiscard]] bool canRun(const std::string& task) const { return session().tasks().whyNot(task).empty(); }
+  /// Works out again what is shown beside the stored result of a task: `take` gets it, and the page is refreshed.
+  void showAgain(const QString& title, const std::string& task);
+  /// Keeps what a task gave beside what is stored.
+  virtual void take(const TaskGiven& given) { (void)given; }
+  /// What the page's tasks work on; with what the page has read already.
+  [[nodiscard]] virtual TaskInputs taskInputs() { return session().taskInputs(); }
   /// Work that leaves no result of the campaign: a proposal, a programme, a file.
   void run(const QString& title, Work work);
   /// Reads or works out again what is only to be shown, in place of what was to be shown before.
   void display(const QString& title, Work work);
-  /// The same for work on a result that is stored already: the page takes it and is refreshed.
-  void display(const QString& title, ResultWork work);
   /// In the callout.
   void showFailure(const QString& sentence);
   /// Wires a hover signal to the hint line.

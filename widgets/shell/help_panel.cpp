@@ -10,7 +10,7 @@
 #include "widgets/common/help_text.h"
 #include "widgets/common/parts.h"
 #include "widgets/common/words.h"
-#include "widgets/pages/discrepancy/effect_titles.h"
+#include "widgets/panels/common/effect_titles.h"
 #include "widgets/theme/icons.h"
 
 namespace spindrift::gui {

@@ -23,9 +23,7 @@
 #include "widgets/common/preferences.h"
 #include "widgets/jobs/job_bar.h"
 #include "widgets/pages/discrepancy/discrepancy_page.h"
-#include "widgets/pages/scanning/artefact_designer.h"
-#include "widgets/pages/teaching/exercise_dialog.h"
-#include "widgets/pages/teaching/what_if_window.h"
+#include "widgets/panels/scanning/artefact_designer.h"
 #include "widgets/shell/diagnostics.h"
 #include "widgets/shell/help_panel.h"
 #include "widgets/shell/main_window.h"
@@ -33,6 +31,8 @@
 #include "widgets/shell/notes_dialog.h"
 #include "widgets/shell/step_list.h"
 #include "widgets/shell/welcome_page.h"
+#include "widgets/teaching/exercise_dialog.h"
+#include "widgets/teaching/what_if_window.h"
 #include "widgets/theme/icons.h"
 
 namespace spindrift::gui {

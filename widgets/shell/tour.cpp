@@ -13,10 +13,10 @@
 
 #include "widgets/common/parts.h"
 #include "widgets/jobs/job_bar.h"
-#include "widgets/pages/capture/incoming_service.h"
 #include "widgets/pages/report/report_page.h"
-#include "widgets/pages/scanning/artefact_designer.h"
+#include "widgets/panels/scanning/artefact_designer.h"
 #include "widgets/report/page_view.h"
+#include "widgets/services/incoming_service.h"
 #include "widgets/shell/main_window.h"
 #include "widgets/shell/tour_details.h"
 #include "widgets/theme/theme.h"

@@ -84,6 +84,13 @@ TEST(SessionCommand, EvaluateAndReportShareTheTasksOfTheWindow) {
     session.exclude(session.campaigns().front().id, "M1/none/EX", "another");
   }
   EXPECT_EQ(stepOf(jsonOf({"session", place}), "Report").at("state"), "outdated");
+  // What is needed first is run first, and nothing twice.
+  EXPECT_EQ(jsonOf({"session", place, "--run", "fit"}).at("ran"), nlohmann::json({"evaluate", "fit"}));
+  EXPECT_EQ(jsonOf({"session", place, "--run", "fit"}).at("ran"), nlohmann::json::array());
+  EXPECT_EQ(stepOf(jsonOf({"session", place, "--run", "report"}), "Report").at("state"), "done");
+  EXPECT_TRUE(stepOf(jsonOf({"session", place}), "Model").at("changed").empty());
+  expectBadInput({"session", place, "--run", "discrepancy"}, {"without a simulation"});
+  expectBadInput({"session", place, "--run", "lunch"}, {"--run"});
   expectBadInput({"evaluate", place, "--exclude", "a"}, {"is a session"});
   expectBadInput({"report", place, "--campaign", "none", "--out", html}, {"no campaign \"none\""});
   expectBadInput({"report", place, "--out", (folder / "r.txt").string()}, {".html or .pdf"});

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/base/random.h"
+#include "core/imaging/contrast_curve.h"
 #include "core/simulation/virtual_microscope.h"
 
 namespace spindrift {
@@ -44,6 +45,17 @@ TEST(Focus, ShiftsAreFoundWhateverTheGain) {
     EXPECT_NEAR(result.peaks[i].peak_um - result.peaks[0].peak_um, 1e3 * (truth[i] - truth[0]), 0.4) << i;
   }
   EXPECT_NEAR(result.curve(0, 0.0), sets[0].normalised[2], 0.02 * sets[0].normalised[2]);
+}
+
+TEST(Focus, TheGainOfACurveThatIsKeptIsFoundAgain) {
+  const Eigen::Vector3d shape(20.0, -3.0, 40.0);
+  FocusSet set{"F1 in state M0", {}, {}};
+  for (const double z : heights) {
+    set.height_mm.push_back(z);
+    set.normalised.push_back(contrastAt(shape, 2.5, 30.0, z));
+  }
+  EXPECT_DOUBLE_EQ(contrastAt(shape, 2.5, 30.0, 0.03), 1.0 / 2.5);
+  EXPECT_NEAR(contrastGain(set, shape, 30.0), 2.5, 1e-12);
 }
 
 TEST(Focus, StatedUncertaintiesHold) {

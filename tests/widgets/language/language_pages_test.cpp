@@ -30,16 +30,14 @@
 #include "core/machine/campaign.h"
 #include "core/plant/batch_queue.h"
 #include "core/plant/plant_store.h"
-#include "tests/widgets/pages/story_support.h"
+#include "tests/widgets/support/story_support.h"
 #include "widgets/common/help_text.h"
 #include "widgets/common/languages.h"
 #include "widgets/export/exportable.h"
 #include "widgets/jobs/activity_dialog.h"
 #include "widgets/pages/page.h"
 #include "widgets/pages/plant/plant_page.h"
-#include "widgets/pages/scanning/artefact_designer.h"
-#include "widgets/pages/teaching/exercise_dialog.h"
-#include "widgets/pages/teaching/what_if_window.h"
+#include "widgets/panels/scanning/artefact_designer.h"
 #include "widgets/plots/plot.h"
 #include "widgets/plots/surface_plot.h"
 #include "widgets/shell/command_palette.h"
@@ -47,6 +45,8 @@
 #include "widgets/shell/news_dialog.h"
 #include "widgets/shell/notes_dialog.h"
 #include "widgets/shell/preferences_dialog.h"
+#include "widgets/teaching/exercise_dialog.h"
+#include "widgets/teaching/what_if_window.h"
 
 namespace spindrift::gui {
 namespace {

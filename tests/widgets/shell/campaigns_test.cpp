@@ -3,7 +3,7 @@
 #include <QPushButton>
 #include <QTest>
 
-#include "tests/widgets/pages/story_support.h"
+#include "tests/widgets/support/story_support.h"
 #include "widgets/commands/commands.h"
 #include "widgets/pages/page.h"
 #include "widgets/shell/tour.h"

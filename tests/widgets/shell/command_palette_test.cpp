@@ -10,7 +10,7 @@
 #include <QTableView>
 #include <QTest>
 
-#include "tests/widgets/pages/story_support.h"
+#include "tests/widgets/support/story_support.h"
 #include "widgets/shell/demo.h"
 #include "widgets/shell/help_panel.h"
 #include "widgets/theme/theme.h"

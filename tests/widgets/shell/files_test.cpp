@@ -17,7 +17,7 @@
 
 #include "core/base/error.h"
 #include "core/machine/campaign.h"
-#include "tests/widgets/pages/story_support.h"
+#include "tests/widgets/support/story_support.h"
 #include "widgets/jobs/job_bar.h"
 #include "widgets/pages/page.h"
 #include "widgets/report/report_pages.h"

@@ -12,7 +12,7 @@
 #include <string>
 
 #include "core/base/atomic_file.h"
-#include "tests/widgets/pages/story_support.h"
+#include "tests/widgets/support/story_support.h"
 #include "widgets/jobs/job_bar.h"
 #include "widgets/pages/report/report_page.h"
 

@@ -19,22 +19,22 @@
 #include <algorithm>
 #include <set>
 
-#include "tests/widgets/pages/story_support.h"
+#include "tests/widgets/support/story_support.h"
 #include "widgets/common/parts.h"
 #include "widgets/image_view/image_view.h"
 #include "widgets/jobs/activity_dialog.h"
 #include "widgets/pages/compensate/closed_loop_page.h"
 #include "widgets/pages/discrepancy/discrepancy_page.h"
-#include "widgets/pages/discrepancy/effects_panel.h"
 #include "widgets/pages/plant/plant_page.h"
-#include "widgets/pages/teaching/exercise_dialog.h"
-#include "widgets/pages/teaching/what_if_window.h"
+#include "widgets/panels/discrepancy/effects_panel.h"
 #include "widgets/plots/plot.h"
 #include "widgets/plots/surface_plot.h"
 #include "widgets/shell/demo.h"
 #include "widgets/shell/notes_dialog.h"
 #include "widgets/shell/preferences_dialog.h"
 #include "widgets/shell/step_list.h"
+#include "widgets/teaching/exercise_dialog.h"
+#include "widgets/teaching/what_if_window.h"
 #include "widgets/view3d/view3d.h"
 
 namespace spindrift::gui {

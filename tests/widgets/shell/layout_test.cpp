@@ -19,7 +19,7 @@
 #include <set>
 #include <tuple>
 
-#include "tests/widgets/pages/story_support.h"
+#include "tests/widgets/support/story_support.h"
 #include "widgets/common/languages.h"
 #include "widgets/common/parts.h"
 #include "widgets/common/wrap_layout.h"

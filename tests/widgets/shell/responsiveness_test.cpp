@@ -19,14 +19,14 @@
 #include <string>
 #include <vector>
 
-#include "tests/widgets/pages/story_support.h"
 #include "tests/widgets/support/event_loop_watch.h"
+#include "tests/widgets/support/story_support.h"
 #include "widgets/common/parts.h"
 #include "widgets/jobs/job_bar.h"
 #include "widgets/pages/discrepancy/discrepancy_page.h"
-#include "widgets/pages/discrepancy/effect_editor.h"
-#include "widgets/pages/discrepancy/effects_panel.h"
 #include "widgets/pages/report/report_page.h"
+#include "widgets/panels/discrepancy/effect_editor.h"
+#include "widgets/panels/discrepancy/effects_panel.h"
 #include "widgets/shell/tour.h"
 
 namespace spindrift::gui {

@@ -16,7 +16,7 @@
 #include <cstdio>
 
 #include "core/base/atomic_file.h"
-#include "tests/widgets/pages/story_support.h"
+#include "tests/widgets/support/story_support.h"
 #include "widgets/commands/commands.h"
 #include "widgets/common/help_text.h"
 #include "widgets/common/parts.h"

@@ -6,9 +6,9 @@
 #include <algorithm>
 
 #include "widgets/common/parts.h"
-#include "widgets/pages/capture/arriving_panel.h"
-#include "widgets/pages/capture/camera_panel.h"
-#include "widgets/pages/capture/incoming_service.h"
+#include "widgets/panels/capture/arriving_panel.h"
+#include "widgets/panels/capture/camera_panel.h"
+#include "widgets/services/incoming_service.h"
 
 namespace spindrift::gui {
 

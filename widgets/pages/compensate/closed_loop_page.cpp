@@ -12,10 +12,10 @@
 #include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
 #include "widgets/common/words.h"
+#include "widgets/models/cells.h"
 #include "widgets/models/rows_model.h"
 #include "widgets/models/session_model.h"
-#include "widgets/pages/common/cells.h"
-#include "widgets/pages/discrepancy/effect_titles.h"
+#include "widgets/panels/common/effect_titles.h"
 #include "widgets/plots/plot.h"
 #include "widgets/theme/numbers.h"
 
@@ -363,17 +363,11 @@ void ClosedLoopPage::showCycles() {
   const int axis = component_->current();
   Series without{tr("without"), {}, {}, {}, SeriesStyle::LinePoints, 1};
   Series with{tr("with compensation"), {}, {}, {}, SeriesStyle::LinePoints, 0};
-  double squares_without = 0.0, squares_with = 0.0;
-  int count = 0;
   for (const LoopCycle& cycle : result.cycles) {
     if (!std::isfinite(cycle.with_um[axis])) continue;
     for (Series* series : {&without, &with}) series->x.push_back(cycle.time_s / 3600.0);
     without.y.push_back(cycle.without_um[axis]);
     with.y.push_back(cycle.with_um[axis]);
-    if (cycle.stage == LoopStage::None) continue;
-    squares_without += cycle.without_um[axis] * cycle.without_um[axis];
-    squares_with += cycle.with_um[axis] * cycle.with_um[axis];
-    ++count;
   }
   plot_->setAxes(tr("Machine time / h"),
                  QStringLiteral("%1 / µm").arg(fromCore(std::string(toString(static_cast<Component>(axis))))));
@@ -382,11 +376,14 @@ void ClosedLoopPage::showCycles() {
   } else {
     plot_->setContent({without, with});
   }
+  const auto count = std::count_if(result.cycles.begin(), result.cycles.end(), [axis](const LoopCycle& cycle) {
+    return cycle.stage != LoopStage::None && std::isfinite(cycle.with_um[axis]);
+  });
   errors_->setText(count == 0 ? tr("Error without and with: no cycle has been compensated yet.")
                               : tr("%1: %2 µm rms without, %3 µm rms with, over %4 since the compensation began.")
                                     .arg(fromCore(std::string(toString(static_cast<Component>(axis)))))
-                                    .arg(decimalText(std::sqrt(squares_without / count), 'f', 1))
-                                    .arg(decimalText(std::sqrt(squares_with / count), 'f', 1))
+                                    .arg(decimalText(result.rmsWithout(LoopStage::None)[axis], 'f', 1))
+                                    .arg(decimalText(result.rmsWith(LoopStage::None)[axis], 'f', 1))
                                     .arg(tr("%n cycles", nullptr, static_cast<int>(count))));
 }
 

@@ -7,7 +7,7 @@
 #include <QWidget>
 #include <array>
 
-#include "widgets/pages/compensate/closed_loop_service.h"
+#include "widgets/services/closed_loop_service.h"
 
 class QLabel;
 class QPushButton;

@@ -31,9 +31,9 @@
 #include "widgets/common/words.h"
 #include "widgets/common/wrap_layout.h"
 #include "widgets/models/rows_model.h"
-#include "widgets/pages/compensate/closed_loop_service.h"
 #include "widgets/pages/discrepancy/discrepancy_page.h"
-#include "widgets/pages/discrepancy/effect_titles.h"
+#include "widgets/panels/common/effect_titles.h"
+#include "widgets/services/closed_loop_service.h"
 #include "widgets/view3d/view3d.h"
 
 namespace spindrift::gui {
@@ -45,7 +45,8 @@ constexpr std::array<const char*, 3> axis_words{"X", "Y", "Z"};
 }  // namespace
 
 CompensatePage::CompensatePage(PageContext page_context, QWidget* parent)
-    : Page(std::move(page_context), StepId::Compensate, parent), options_(context(), option_keys::compensation, [this] {
+    : Page(std::move(page_context), StepId::Compensate, parent),
+      options_(session(), context().undo, option_keys::compensation, [this] {
         context().workflow.refresh();
         refresh();
         compute();
@@ -203,7 +204,7 @@ CompensatePage::CompensatePage(PageContext page_context, QWidget* parent)
 
 bool CompensatePage::hasSource(CompensationSource source) const {
   if (source != CompensationSource::CompletedModel) return session().state("fit").there;
-  return !DiscrepancyChoice::of(session()).added.empty();
+  return !session().effects().added.empty();
 }
 
 CompensationRequest CompensatePage::request() const {
@@ -250,7 +251,7 @@ void CompensatePage::refresh() {
   callout()->setAction({}, {});
   const bool possible = session().observations() != nullptr && (hasSource(CompensationSource::NineParameters) ||
                                                                 hasSource(CompensationSource::CompletedModel));
-  compute_->setEnabled(possible);
+  compute_->setEnabled(possible && canRun(compensation_result));
   if (!possible) {
     plan_.reset();
     shown_result_ = 0;
@@ -288,34 +289,22 @@ void CompensatePage::refresh() {
       });
     }
     // The plan is worked out again from what is stored: it takes less time than reading it would.
-    if (std::exchange(shown_result_, stored->id) != stored->id && !plan_) runPlan(false);
+    if (std::exchange(shown_result_, stored->id) != stored->id && !plan_)
+      showAgain(tr("Reading the compensation"), "compensation");
   }
   showPlan();
 }
 
-void CompensatePage::compute() {
-  runPlan(true);
+void CompensatePage::take(const TaskGiven& given) {
+  if (const auto plan = given.result.as<CompensationPlan>()) plan_ = *plan;
 }
 
-void CompensatePage::runPlan(bool store) {
-  const auto observations = session().observations();
-  if (!observations ||
-      !(hasSource(CompensationSource::NineParameters) || hasSource(CompensationSource::CompletedModel)))
-    return;
-  const PendingResult pending = session().begin(compensation_result);
-  const QString title = tr("Calculating the compensation");
-  const ResultWork work = [this, observations, asked = request(), choice = DiscrepancyChoice::of(session()),
-                           effects_file = DiscrepancyChoice::file(session()),
-                           data = session().snapshot().campaign](JobContext& progress) -> Worked {
-    const CompensationPlan plan = planCompensation(*choice.applied(data, effects_file), *observations, asked, progress);
-    return {plan.json(), [this, plan] { plan_ = plan; }};
-  };
-  if (!store) return display(title, work);
-  run(title, pending, work, {.failed = [this](const QString& sentence) {
-        plan_.reset();
-        showPlan();
-        showFailure(sentence);
-      }});
+void CompensatePage::compute() {
+  runTask("compensation", {.failed = [this](const QString& sentence) {
+            plan_.reset();
+            showPlan();
+            showFailure(sentence);
+          }});
 }
 
 void CompensatePage::exportFiles(const QString& folder) {

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "core/workflows/compensation_workflow.h"
-#include "widgets/pages/bound_options.h"
+#include "widgets/commands/bound_options.h"
 #include "widgets/pages/page.h"
 
 class QCheckBox;
@@ -46,7 +46,7 @@ class CompensatePage : public Page {
  private:
   void compute();
   /// `store`: keep the result in the session; else only show what is stored already.
-  void runPlan(bool store);
+  void take(const TaskGiven& given) override;
   /// Everything the result depends on besides the files.
   [[nodiscard]] CompensationRequest request() const;
   [[nodiscard]] bool hasSource(CompensationSource source) const;

@@ -5,12 +5,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/workflows/compensation_sizes.h"
 #include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
+#include "widgets/models/cells.h"
 #include "widgets/models/rows_model.h"
-#include "widgets/pages/common/cells.h"
 #include "widgets/pages/compensate/compensate_page.h"
-#include "widgets/pages/discrepancy/effect_titles.h"
+#include "widgets/panels/common/effect_titles.h"
 #include "widgets/theme/numbers.h"
 #include "widgets/view3d/view3d.h"
 
@@ -96,27 +97,16 @@ void CompensatePage::showPoints() {
     if (!p.used) name.tip = tr("Not used by the fit: it only validates");
     row.cells = {name};
     for (int i = 0; i < 3; ++i) row.cells.push_back(rightCell(valueText(p.correction_um[i], p.sigma_um[i])));
-    const auto length = [](const std::array<std::optional<double>, 3>& v) {
-      double sum = 0.0;
-      bool any = false;
-      for (const auto& one : v) {
-        if (!one) continue;
-        sum += *one * *one;
-        any = true;
-      }
-      return any ? std::sqrt(sum) : std::nan("");
-    };
-    row.cells.push_back(rightCell(sizeText(length(p.remains_um), {})));
+    row.cells.push_back(rightCell(sizeText(remainingLength_um(p), {})));
     QStringList parts;
-    for (std::size_t i = 0; i < 3; ++i) {
-      if (p.remains_um[i]) {
-        parts << QString::fromLatin1(axis_titles[i]) + QLatin1Char(' ') +
-                     valueText(*p.remains_um[i],
-                               std::hypot(p.measured_sigma_um[i], p.sigma_um[static_cast<Eigen::Index>(i)]));
-      }
+    for (int i = 0; i < 3; ++i) {
+      const auto axis = static_cast<std::size_t>(i);
+      if (p.remains_um[axis])
+        parts << QString::fromLatin1(axis_titles[axis]) + QLatin1Char(' ') +
+                     valueText(*p.remains_um[axis], remainingSigma_um(p, i));
     }
     row.cells.back().tip = tr("Measured %1 µm; remains / µm: %2")
-                               .arg(sizeText(length(p.measured_um), {}), parts.join(QStringLiteral(", ")));
+                               .arg(sizeText(measuredLength_um(p), {}), parts.join(QStringLiteral(", ")));
     rows.push_back(std::move(row));
   }
   points_->setHeaders({tr("Point"), tr("X / µm"), tr("Y / µm"), tr("Z / µm"), tr("Remains")});

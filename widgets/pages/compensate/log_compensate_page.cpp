@@ -13,10 +13,10 @@
 #include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
 #include "widgets/common/words.h"
-#include "widgets/pages/common/cells.h"
-#include "widgets/pages/compensate/closed_loop_service.h"
-#include "widgets/pages/compensate/live_compensation_panel.h"
+#include "widgets/models/cells.h"
+#include "widgets/panels/compensate/live_compensation_panel.h"
 #include "widgets/plots/plot.h"
+#include "widgets/services/closed_loop_service.h"
 #include "widgets/theme/numbers.h"
 
 namespace spindrift::gui {
@@ -24,31 +24,6 @@ namespace {
 
 constexpr auto log_result = "log-compensation";
 constexpr std::size_t most_plotted = 3000;
-
-/// Mean and rms about it of what is finite in the range; NaN without values.
-std::pair<double, double> meanAndRms(const std::vector<double>& time_s, const std::vector<double>& values,
-                                     const TimeRange& range) {
-  double sum = 0.0;
-  double squares = 0.0;
-  double count = 0.0;
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    if (!std::isfinite(values[i]) || time_s[i] < range.from_s || time_s[i] > range.to_s) continue;
-    sum += values[i];
-    squares += values[i] * values[i];
-    ++count;
-  }
-  if (count == 0.0) return {0.0, std::nan("")};
-  const double mean = sum / count;
-  return {mean, std::sqrt(std::max(0.0, squares / count - mean * mean))};
-}
-
-/// The range on which the model was judged; the page Model takes the second half if the user chose none.
-TimeRange testRange(const StoredResult& model, const TimeSeries& series) {
-  const nlohmann::json options = model.provenance.options.value("options", nlohmann::json::object());
-  const nlohmann::json test = options.is_object() ? options.value("test", nlohmann::json()) : nlohmann::json();
-  if (test.is_array() && test.size() == 2) return {test[0].get<double>(), test[1].get<double>()};
-  return {std::round(0.5 * (series.time_s.front() + series.time_s.back())), series.time_s.back()};
-}
 
 Series curve(const QString& name, const std::vector<double>& time_s, const std::vector<double>& values, double unit_s,
              int colour) {
@@ -66,34 +41,6 @@ Series curve(const QString& name, const std::vector<double>& time_s, const std::
 }
 
 }  // namespace
-
-CompensatorRun runCompensator(const TimeSeries& series, const ThermalModel& model, const TimeRange& test,
-                              const JobContext& job) {
-  CompensatorRun run;
-  run.result = compensateLog(series, model, {}, job);
-  run.test = test;
-  run.time_s = series.time_s;
-  if (run.result.outputs.empty()) throw InputError("the model has no output to compensate.");
-  const CompensateResult::Output& output = run.result.outputs.front();
-  run.output = output.name;
-  const Signal* measured = series.find(output.name);
-  if (measured == nullptr) throw InputError("the log has no column " + output.name + " that the model is of.");
-  run.measured = measured->values;
-  run.left = measured->values;
-  const std::size_t last = output.compensation.size() - 1;
-  for (std::size_t i = 0; i < run.left.size(); ++i) {
-    const double cycle = (series.time_s[i] - series.time_s.front()) / run.result.cycle_s;
-    run.left[i] += output.compensation[std::min(last, static_cast<std::size_t>(cycle + 0.5))];
-  }
-  run.before_rms = meanAndRms(run.time_s, run.measured, test).second;
-  run.after_rms = meanAndRms(run.time_s, run.left, test).second;
-  const TimeRange all{series.time_s.front(), series.time_s.back()};
-  for (std::vector<double>* values : {&run.measured, &run.left}) {
-    const double mean = meanAndRms(run.time_s, *values, all).first;
-    for (double& v : *values) v -= mean;
-  }
-  return run;
-}
 
 LogCompensatePage::LogCompensatePage(PageContext page_context, QWidget* parent)
     : Page(std::move(page_context), StepId::Compensate, parent) {
@@ -123,7 +70,7 @@ LogCompensatePage::LogCompensatePage(PageContext page_context, QWidget* parent)
   content()->addWidget(tabs, 1);
   showHints(plot_);
   showHints(live_->plot());
-  connect(run_button_, &QPushButton::clicked, this, [this] { compensate(true); });
+  connect(run_button_, &QPushButton::clicked, this, [this] { runTask(log_result); });
   connect(&session(), &SessionModel::campaignChanged, this, [this] {
     result_.reset();
     result_model_ = 0;
@@ -135,40 +82,26 @@ std::int64_t LogCompensatePage::modelId() {
   return model == nullptr ? 0 : model->id;
 }
 
-void LogCompensatePage::compensate(bool store) {
-  const auto model = session().result("thermal");
-  if (!model) return;
-  const PendingResult pending = session().begin(log_result);
-  const ResultWork work = [this, stored = *model, snapshot = session().snapshot(),
-                           observations = session().observations()](JobContext& job) -> Worked {
-    const CampaignSeries all = campaignSeries(*snapshot.campaign, observations ? &*observations : nullptr, job);
-    const auto thermal = std::make_shared<const ThermalModel>(
-        ThermalModel::parse(JsonNode::parse(stored.payload.at("model").dump(), "model")));
-    const auto result = std::make_shared<const CompensatorRun>(
-        runCompensator(all.series, *thermal, testRange(stored, all.series), job));
-    return {result->result.json(), [this, result, thermal, id = stored.id] {
-              if (id != modelId()) return;
-              result_ = result;
-              model_ = thermal;
-              result_model_ = id;
-            }};
-  };
-  if (store) return run(tr("Running the compensator"), pending, work);
-  display(tr("Reading the compensation"), work);
+void LogCompensatePage::take(const TaskGiven& given) {
+  const auto found = given.result.as<LogCompensation>();
+  if (found == nullptr || given.origin.inputs != session().begin(log_result).origin.inputs) return;  // another model
+  result_ = std::shared_ptr<const CompensatorRun>(found, &found->run);
+  model_ = std::shared_ptr<const ThermalModel>(found, &found->model);
+  result_model_ = modelId();
 }
 
 void LogCompensatePage::refresh() {
   if (session().campaign() == nullptr) return;
   live_->refresh();
   const std::int64_t model = modelId();
-  run_button_->setEnabled(model != 0);
+  run_button_->setEnabled(model != 0 && canRun(log_result));
   if (result_model_ != model) result_.reset();
   const ResultState state = session().state(log_result);
   const StepStatus& status = context().workflow.status(StepId::Compensate);
   if (model == 0) {
     callout()->show(Tone::Attention, status.sentence);
   } else if (result_ == nullptr && state.current) {
-    compensate(false);
+    showAgain(tr("Reading the compensation"), log_result);
     return;
   } else if (result_ == nullptr || !state.current) {
     callout()->show(state.there ? Tone::Outdated : Tone::Accent, status.sentence);

@@ -5,8 +5,7 @@
 
 #include <memory>
 
-#include "core/thermal/time_series.h"
-#include "core/workflows/thermal_tracking.h"
+#include "core/workflows/compensator_run.h"
 #include "widgets/pages/page.h"
 
 namespace spindrift::gui {
@@ -16,21 +15,6 @@ class LiveCompensationPanel;
 class NumberTile;
 class Plot;
 
-/// A compensator that was run over a log.
-struct CompensatorRun {
-  CompensateResult result;
-  std::string output;  ///< the one that is shown
-  std::vector<double> time_s;
-  std::vector<double> measured;  ///< about its mean, NaN where it is not measured
-  std::vector<double> left;      ///< measured plus compensation, about its mean
-  TimeRange test;
-  double before_rms = 0.0;  ///< in the test range, about the mean there; NaN without values
-  double after_rms = 0.0;
-};
-/// Runs `model` over the series. Throws InputError if inputs are missing.
-[[nodiscard]] CompensatorRun runCompensator(const TimeSeries& series, const ThermalModel& model, const TimeRange& test,
-                                            const JobContext& job);
-
 class LogCompensatePage : public Page {
   Q_OBJECT
  public:
@@ -38,13 +22,13 @@ class LogCompensatePage : public Page {
   void refresh() override;
   [[nodiscard]] std::vector<Exportable> exportables() override;
   [[nodiscard]] QPushButton* primaryButton() const override { return run_button_; }
-  void runAll() override { compensate(true); }
+  void runAll() override { runTask("log-compensation"); }
   [[nodiscard]] Plot* plot() const { return plot_; }
   [[nodiscard]] const std::shared_ptr<const CompensatorRun>& result() const { return result_; }
   [[nodiscard]] LiveCompensationPanel* live() const { return live_; }
 
  private:
-  void compensate(bool store);
+  void take(const TaskGiven& given) override;
   void showResult();
   [[nodiscard]] std::int64_t modelId();  ///< of the stored model, 0 if there is none
 

@@ -20,15 +20,15 @@
 #include "widgets/common/parts.h"
 #include "widgets/common/question.h"
 #include "widgets/jobs/task_job.h"
-#include "widgets/pages/discrepancy/effect_titles.h"
-#include "widgets/pages/discrepancy/effects_panel.h"
-#include "widgets/pages/discrepancy/gap_panel.h"
-#include "widgets/pages/discrepancy/next_panel.h"
-#include "widgets/pages/discrepancy/noise_panel.h"
-#include "widgets/pages/discrepancy/remainder_panel.h"
-#include "widgets/pages/discrepancy/simulation_panel.h"
-#include "widgets/pages/discrepancy/what_panel.h"
-#include "widgets/pages/discrepancy/where_panel.h"
+#include "widgets/panels/common/effect_titles.h"
+#include "widgets/panels/discrepancy/effects_panel.h"
+#include "widgets/panels/discrepancy/gap_panel.h"
+#include "widgets/panels/discrepancy/next_panel.h"
+#include "widgets/panels/discrepancy/noise_panel.h"
+#include "widgets/panels/discrepancy/remainder_panel.h"
+#include "widgets/panels/discrepancy/simulation_panel.h"
+#include "widgets/panels/discrepancy/what_panel.h"
+#include "widgets/panels/discrepancy/where_panel.h"
 #include "widgets/theme/numbers.h"
 
 namespace spindrift::gui {
@@ -286,48 +286,28 @@ void DiscrepancyPage::refresh() {
 
 void DiscrepancyPage::search() {
   makePanelsSoon();  // while the search runs
-  if (!missing().isEmpty()) return;
-  const DiscrepancyChoice choice = DiscrepancyChoice::of(session());
-  DiscrepancyOptions options;
-  options.accept = choice.added;
-  options.reject = choice.rejected;
-  const PendingResult pending = session().begin(discrepancy_result);
-  run(tr("Searching for what the simulation lacks"), pending,
-      [options, choice, data = session().snapshot().campaign, file = DiscrepancyChoice::file(session()),
-       observations = session().observations()](JobContext& progress) -> Worked {
-        return {tellDiscrepancy(*choice.applied(data, file), *observations, options, progress).json(), {}};
-      },
-      {.failed =
-           [this](const QString& sentence) {
-             refresh();
-             showFailure(sentence);
-           },
-       .cancelled = [this] { refresh(); }});
+  runTask(discrepancy_result, {.failed =
+                                   [this](const QString& sentence) {
+                                     refresh();
+                                     showFailure(sentence);
+                                   },
+                               .cancelled = [this] { refresh(); }});
 }
 
-void DiscrepancyPage::change(const QString& what, const DiscrepancyChoice& after) {
-  context().undo.push(new OptionsCommand(session(), what, DiscrepancyChoice::key(session()), after.json(),
+void DiscrepancyPage::change(const QString& what, const EffectOptions& after) {
+  context().undo.push(new OptionsCommand(session(), what, session().campaignKey(option_keys::discrepancy), after.json(),
                                          [this] { choiceChanged(); }));
 }
 
 bool DiscrepancyPage::showStored() {
-  const nlohmann::json wanted = DiscrepancyChoice::of(session()).json();
-  Session* store = session().session();
-  if (store == nullptr) return false;
-  const std::vector<StoredResult> all = store->resultHeads(session().campaignId(), discrepancy_result);
-  for (auto it = all.rbegin(); it != all.rend(); ++it) {
-    if (it->provenance.options.value(option_name, nlohmann::json()) != wanted) continue;
-    if (!session().tasks().holds(*it)) continue;
-    session().storeResult(discrepancy_result, {}, store->payload(it->id));
-    refresh();
-    return true;
-  }
-  return false;
+  if (!session().takeEarlier(discrepancy_result)) return false;
+  refresh();
+  return true;
 }
 
-void DiscrepancyPage::changeEffects(const QString& what, const DiscrepancyChoice& after, bool typed) {
+void DiscrepancyPage::changeEffects(const QString& what, const EffectOptions& after, bool typed) {
   std::unique_ptr<QUndoCommand> change = std::make_unique<OptionsCommand>(
-      session(), what, DiscrepancyChoice::key(session()), after.json(), [this] { effectsChanged(); });
+      session(), what, session().campaignKey(option_keys::discrepancy), after.json(), [this] { effectsChanged(); });
   if (typed) change = std::make_unique<ApplyCommand>(session(), EffectsPanel::draft_name, std::move(change));
   context().undo.push(change.release());
 }
@@ -368,7 +348,7 @@ bool DiscrepancyPage::mayBeLeft() {
 
 void DiscrepancyPage::knowTitles() {
   const auto campaign = session().campaign();
-  nlohmann::json now = DiscrepancyChoice::of(session()).effects;
+  nlohmann::json now = session().effects().effects;
   if (!now.is_object()) now = campaign->effects.empty() ? "" : campaign->path(campaign->effects.string()).string();
   if (now == titles_of_) return;
   titles_of_ = now;
@@ -399,14 +379,14 @@ void DiscrepancyPage::add() {
   std::string id = what_->chosen();
   if (id.empty() || what_->chosenIsAdded()) id = story_->nextProposal() != nullptr ? story_->nextProposal()->id : "";
   if (id.empty()) return;
-  DiscrepancyChoice choice = DiscrepancyChoice::of(session());
+  EffectOptions choice = session().effects();
   choice.added.push_back(id);
   tabs_->setCurrentWidget(gap_);
   change(tr("add %1").arg(effectTitle(id)), choice);
 }
 
 void DiscrepancyPage::removeLast() {
-  DiscrepancyChoice choice = DiscrepancyChoice::of(session());
+  EffectOptions choice = session().effects();
   if (choice.added.empty()) return;
   const QString title = effectTitle(choice.added.back());
   choice.added.pop_back();
@@ -415,7 +395,7 @@ void DiscrepancyPage::removeLast() {
 
 void DiscrepancyPage::updateButtons() {
   const bool idle = !context().jobs.working();
-  search_->setEnabled(idle && missing().isEmpty());
+  search_->setEnabled(idle && missing().isEmpty() && canRun(discrepancy_result));
   const bool proposes = story_ != nullptr && what_ != nullptr &&
                         (story_->nextProposal() != nullptr || (!what_->chosen().empty() && !what_->chosenIsAdded()));
   add_->setVisible(proposes);
@@ -447,7 +427,7 @@ bool DiscrepancyPage::makePanel() {
     showHints(what_);
     connect(what_, &WhatPanel::choiceChanged, this, &DiscrepancyPage::updateButtons);
     connect(what_, &WhatPanel::rejectAsked, this, [this](const std::string& id) {
-      DiscrepancyChoice choice = DiscrepancyChoice::of(session());
+      EffectOptions choice = session().effects();
       choice.rejected.push_back(id);
       change(tr("leave out %1").arg(effectTitle(id)), choice);
     });

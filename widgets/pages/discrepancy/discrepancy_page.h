@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "core/tasks/task_options.h"
 #include "core/workflows/discrepancy_story.h"
-#include "widgets/pages/discrepancy/discrepancy_choice.h"
 #include "widgets/pages/page.h"
 
 class QLabel;
@@ -66,10 +66,10 @@ class DiscrepancyPage : public Page {
   void choiceChanged();
   /// A stored result with the choice as it is now is shown again; false: there is none.
   bool showStored();
-  void change(const QString& what, const DiscrepancyChoice& after);
+  void change(const QString& what, const EffectOptions& after);
   /// After the list of effects has changed: nothing is searched before somebody asks for it.
   void effectsChanged();
-  void changeEffects(const QString& what, const DiscrepancyChoice& after, bool typed);
+  void changeEffects(const QString& what, const EffectOptions& after, bool typed);
   void showContent(int index);
   void knowTitles();
   void add();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "widgets/pages/imaging/fiducial_calibrate_page.h"
 
+#include <Eigen/Core>
 #include <QComboBox>
 #include <QHBoxLayout>
 #include <QSplitter>
@@ -14,7 +15,9 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/imaging/contrast_curve.h"
 #include "core/imaging/jog_validation.h"
+#include "core/math/known_values.h"
 #include "core/workflows/evaluate_campaign.h"
 #include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
@@ -116,16 +119,7 @@ FiducialCalibratePage::FiducialCalibratePage(PageContext page_context, QWidget* 
   right->body()->addWidget(contrast_, 1);
   content()->addWidget(makeSplitter(left, right, 6, 6), 1);
   showHints(contrast_);
-  connect(evaluate_, &QPushButton::clicked, this, &FiducialCalibratePage::evaluate);
-}
-
-void FiducialCalibratePage::evaluate() {
-  const CampaignSnapshot snapshot = session().snapshot();
-  if (snapshot.campaign == nullptr) return;
-  const PendingResult pending = session().begin("evaluate");
-  run(tr("Evaluating the captures"), pending, [snapshot](JobContext& job) -> Worked {
-    return {payloadOf(evaluateCampaign(*snapshot.campaign, {}, job)), {}};
-  });
+  connect(evaluate_, &QPushButton::clicked, this, [this] { runTask("evaluate"); });
 }
 
 void FiducialCalibratePage::refresh() {
@@ -240,8 +234,7 @@ void FiducialCalibratePage::showResolutionCheck() {
 void FiducialCalibratePage::showSets(const StoredEvaluation& evaluation) {
   const nlohmann::json& d = evaluation.details;
   std::vector<Row> rows;
-  double orthogonality = 0;
-  double weight = 0;
+  std::vector<double> orthogonality, orthogonality_sigma;
   nlohmann::json centre;
   const QString chosen = fiducial_->currentText();
   fiducial_->clear();
@@ -268,9 +261,8 @@ void FiducialCalibratePage::showSets(const StoredEvaluation& evaluation) {
       const nlohmann::json o = a.is_object() ? a.value("orthogonality_urad", nlohmann::json()) : nlohmann::json();
       row.cells.push_back(cellOf(o));
       if (o.is_object() && o["value"].is_number() && o["standard_uncertainty"].is_number()) {
-        const double w = 1 / std::max(1e-12, std::pow(o["standard_uncertainty"].get<double>(), 2));
-        orthogonality += w * o["value"].get<double>();
-        weight += w;
+        orthogonality.push_back(o["value"].get<double>());
+        orthogonality_sigma.push_back(std::max(1e-6, o["standard_uncertainty"].get<double>()));
       }
       row.cells.push_back(f.is_object() ? cellOf(f.value("peak_z_um", nlohmann::json())) : dash());
       rows.push_back(std::move(row));
@@ -298,10 +290,10 @@ void FiducialCalibratePage::showSets(const StoredEvaluation& evaluation) {
   } else {
     centre_->set(QStringLiteral("–"), tr("needs three spindle orientations"));
   }
-  if (weight > 0) {
-    axes_->set(
-        shownNumbers(QString::fromStdString(withUncertainty(orthogonality / weight, 1 / std::sqrt(weight), "urad"))),
-        tr("deviation from 90°, mean of all fiducials"));
+  if (!orthogonality.empty()) {
+    const WeightedMean mean = weightedMean(orthogonality, orthogonality_sigma);
+    axes_->set(shownNumbers(QString::fromStdString(withUncertainty(mean.value, mean.sigma, "urad"))),
+               tr("deviation from 90°, mean of all fiducials"));
   } else {
     axes_->set(QStringLiteral("–"), tr("needs positions along both axes"));
   }
@@ -366,35 +358,33 @@ void FiducialCalibratePage::showContrast() {
     for (const auto& state : fiducial.value("states", nlohmann::json::array())) {
       const nlohmann::json focus = state.value("focus", nlohmann::json());
       if (!focus.is_object()) continue;
+      FocusSet points;
       Series measured;
       measured.name = tr("state %1").arg(QString::fromStdString(state.value("state", std::string())));
       measured.style = SeriesStyle::Points;
       measured.colour = colour;
       for (const auto& p : focus.value("curve", nlohmann::json::array())) {
         if (!p.value("contrast", nlohmann::json()).is_number()) continue;
-        measured.x.push_back(1000 * p["z_mm"].get<double>());
-        measured.y.push_back(p["contrast"].get<double>());
+        points.height_mm.push_back(p["z_mm"].get<double>());
+        points.normalised.push_back(p["contrast"].get<double>());
+        measured.x.push_back(1000 * points.height_mm.back());
       }
+      measured.y = points.normalised;
       const nlohmann::json peak = focus.value("peak_z_um", nlohmann::json());
       if (shape.is_array() && shape.size() == 3 && peak.is_object() && peak["value"].is_number() &&
           measured.x.size() >= 2) {
-        // 1 / n = g H(z - p), H = 1 + a2 u^2 + a3 u^3 + a4 u^4 with u in mm: the gain is what fits the points.
-        const auto h = [&](double z_um) {
-          const double u = (z_um - peak["value"].get<double>()) * 1e-3;
-          return 1 + u * u * (shape[0].get<double>() + u * (shape[1].get<double>() + u * shape[2].get<double>()));
-        };
-        double log_gain = 0;
-        for (std::size_t i = 0; i < measured.x.size(); ++i) log_gain -= std::log(measured.y[i] * h(measured.x[i]));
-        const double gain = std::exp(log_gain / static_cast<double>(measured.x.size()));
+        const Eigen::Vector3d terms(shape[0].get<double>(), shape[1].get<double>(), shape[2].get<double>());
+        const double peak_um = peak["value"].get<double>();
+        const double gain = contrastGain(points, terms, peak_um);
         Series fitted;
         fitted.style = SeriesStyle::Line;
         fitted.colour = colour;
         fitted.legend = false;
         const auto [low, high] = std::minmax_element(measured.x.begin(), measured.x.end());
         for (int i = 0; i <= 120; ++i) {
-          const double z = *low + (*high - *low) * i / 120;
-          fitted.x.push_back(z);
-          fitted.y.push_back(1 / (gain * h(z)));
+          const double z_um = *low + (*high - *low) * i / 120;
+          fitted.x.push_back(z_um);
+          fitted.y.push_back(contrastAt(terms, gain, peak_um, 1e-3 * z_um));
         }
         series.push_back(std::move(fitted));
       }

@@ -20,13 +20,12 @@ class FiducialCalibratePage : public Page {
   void refresh() override;
   [[nodiscard]] std::vector<Exportable> exportables() override;
   [[nodiscard]] QPushButton* primaryButton() const override { return evaluate_; }
-  void runAll() override { evaluate(); }
+  void runAll() override { runTask("evaluate"); }
 
   /// Algebraic circles beside the joint evaluation.
   [[nodiscard]] RowsModel* circles() const { return circles_; }
 
  private:
-  void evaluate();
   void showDetails(const StoredEvaluation& evaluation);
   void showSets(const StoredEvaluation& evaluation);
   void showCircles(const StoredEvaluation& evaluation);

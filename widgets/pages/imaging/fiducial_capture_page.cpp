@@ -17,12 +17,12 @@
 #include "core/workflows/capture_check.h"
 #include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
+#include "widgets/image_view/decode_marks.h"
 #include "widgets/image_view/image_view.h"
+#include "widgets/models/cells.h"
 #include "widgets/models/rows_model.h"
-#include "widgets/pages/capture/capture_tabs.h"
-#include "widgets/pages/common/cells.h"
-#include "widgets/pages/common/exclude_items.h"
-#include "widgets/pages/imaging/decode_marks.h"
+#include "widgets/panels/capture/capture_tabs.h"
+#include "widgets/panels/common/exclude_items.h"
 #include "widgets/theme/numbers.h"
 
 namespace spindrift::gui {
@@ -96,7 +96,7 @@ FiducialCapturePage::FiducialCapturePage(PageContext page_context, QWidget* pare
   content()->addWidget(captureTabs(makeSplitter(list, picture, 5, 7), context(), Instrument::Microscope), 1);
   showHints(image_);
 
-  connect(check_, &QPushButton::clicked, this, &FiducialCapturePage::checkAll);
+  connect(check_, &QPushButton::clicked, this, [this] { runTask("check"); });
   connect(state_filter_, &QComboBox::activated, this, &FiducialCapturePage::fillTable);
   connect(verdict_filter_, &QComboBox::activated, this, &FiducialCapturePage::fillTable);
   connect(fit, &QPushButton::clicked, image_, &ImageView::fit);
@@ -425,20 +425,6 @@ void FiducialCapturePage::toggleExcluded() {
   const CaptureVerdict* capture = chosen().size() == 1 ? find(chosen().front()) : nullptr;
   excludeOrBringBack(context(), this, chosen(),
                      capture != nullptr && capture->checked && !capture->good ? capture->sentence : tr("disturbed"));
-}
-
-void FiducialCapturePage::checkAll() {
-  const CampaignSnapshot snapshot = session().snapshot();
-  if (snapshot.campaign == nullptr || captures_.empty()) return;
-  const PendingResult pending = session().begin("check");
-  run(tr("Checking %n captures", nullptr, static_cast<int>(captures_.size())), pending,
-      [snapshot](JobContext& job) -> Worked {
-        Campaign campaign = *snapshot.campaign;
-        campaign.excluded_captures = snapshot.excluded;
-        nlohmann::json payload = nlohmann::json::array();
-        for (const CheckedCapture& c : checkFiducialCaptures(campaign, job)) payload.push_back(c.json());
-        return {{{"captures", payload}}, {}};
-      });
 }
 
 std::vector<Exportable> FiducialCapturePage::exportables() {

@@ -38,7 +38,7 @@ class FiducialCapturePage : public Page {
   void refresh() override;
   [[nodiscard]] std::vector<Exportable> exportables() override;
   [[nodiscard]] QPushButton* primaryButton() const override { return check_; }
-  void runAll() override { checkAll(); }
+  void runAll() override { runTask("check"); }
   [[nodiscard]] QString pickedItem() const override { return shown_; }
   /// Shows one image (path as in the list).
   void select(const QString& image);
@@ -53,7 +53,6 @@ class FiducialCapturePage : public Page {
   void showComplete();
   /// Says which captures are bad, with a button that goes to the first.
   void showBad(const std::vector<const CaptureVerdict*>& bad);
-  void checkAll();
   void showImage(const QString& image);
   /// The captures that are selected in the list, else the one that is shown.
   [[nodiscard]] QStringList chosen() const;

@@ -23,9 +23,9 @@
 #include "widgets/common/parts.h"
 #include "widgets/common/words.h"
 #include "widgets/common/wrap_layout.h"
+#include "widgets/models/cells.h"
 #include "widgets/models/rows_model.h"
-#include "widgets/pages/common/cells.h"
-#include "widgets/pages/discrepancy/effect_titles.h"
+#include "widgets/panels/common/effect_titles.h"
 #include "widgets/theme/numbers.h"
 #include "widgets/view3d/view3d.h"
 
@@ -50,9 +50,10 @@ Cell parameterCell(double value, double sigma, std::string_view unit) {
 }  // namespace
 
 NineParameterPage::NineParameterPage(PageContext page_context, QWidget* parent)
-    : Page(std::move(page_context), StepId::Model, parent), options_(context(), option_keys::nine_parameters, [this] {
+    : Page(std::move(page_context), StepId::Model, parent),
+      options_(session(), context().undo, option_keys::nine_parameters, [this] {
         refresh();
-        fit();
+        runAlone("fit");
       }) {
   fit_button_ = makeButton(tr("Fit the model"), nullptr, "primary");
   addModelSwitch(true);
@@ -136,7 +137,7 @@ NineParameterPage::NineParameterPage(PageContext page_context, QWidget* parent)
   content()->addWidget(makeSplitter(left, right, 6, 5), 1);
   showHints(view_);
 
-  connect(fit_button_, &QPushButton::clicked, this, &NineParameterPage::fit);
+  connect(fit_button_, &QPushButton::clicked, this, [this] { runTask("fit"); });
   connect(state_, &QComboBox::activated, this, [this](int) {
     options_.change(tr("choose state"), {{"state", state_->currentText().toStdString()}});
   });
@@ -196,7 +197,7 @@ void NineParameterPage::refresh() {
     }
     robust_->setCurrentIndex(static_cast<int>(options().robust));
   });
-  fit_button_->setEnabled(set != nullptr);
+  fit_button_->setEnabled(set != nullptr && canRun("fit"));
   if (!set) {
     callout()->show(Tone::Attention, tr("There are no observations yet. Evaluate the captures first."));
     callout()->setAction(tr("Go to Calibrate"), [this] { context().workflow.goTo(StepId::Calibrate); });
@@ -205,8 +206,10 @@ void NineParameterPage::refresh() {
     // A stored fit is worked out again from its options: it takes milliseconds.
     if (session().state("fit").current) {
       try {
-        result_ = fitNineParameters(*set, options());
-        order_ = chooseTableOrder(*result_);
+        JobContext at_once;
+        const TaskInputs inputs = taskInputs();
+        take({"fit", session().begin("fit").origin, session().inputsKey(),
+              prepareTask("fit", session().tasks(), inputs)(at_once, TaskOutput::Detail)});
       } catch (const InputError&) {
         result_.reset();
       }
@@ -260,33 +263,11 @@ void NineParameterPage::fillPoints() {
   points_->setRows(std::move(rows));
 }
 
-void NineParameterPage::fit() {
-  const auto set = session().observations();
-  if (!set) return;
-  const NineParameterOptions o = options();
-  const PendingResult pending = session().begin("fit");
-  run(tr("Fitting the nine-parameter model"), pending, [this, set, o](JobContext&) -> Worked {
-    const NineParameterFit fitted = fitNineParameters(*set, o);
-    const TableOrderChoice order = chooseTableOrder(fitted);
-    nlohmann::json parameters = nlohmann::json::object();
-    for (int i = 0; i < nine_parameter_count; ++i) {
-      parameters[std::string(nine_parameter_names[static_cast<std::size_t>(i)])] = {
-          {"value", jsonNumber(fitted.determined(i) ? fitted.parameters[i] : std::nan(""))},
-          {"standard_uncertainty", jsonNumber(fitted.standardUncertainty(i))}};
-    }
-    const nlohmann::json full = toJson(fitted);
-    nlohmann::json payload{{"parameters", parameters},
-                           {"state", fitted.state},
-                           {"status", std::string(toString(fitted.status))},
-                           {"message", fitted.message},
-                           {"parameter_order", full.at("parameter_order")},
-                           {"covariance", full.at("covariance")},
-                           {"higher_order", order.json()}};
-    return {std::move(payload), [this, fitted, order] {
-              result_ = fitted;
-              order_ = order;
-            }};
-  });
+void NineParameterPage::take(const TaskGiven& given) {
+  if (const auto found = given.result.as<NineParameterResult>()) {
+    result_ = found->fit;
+    order_ = found->order;
+  }
 }
 
 void NineParameterPage::showFit() {

@@ -8,7 +8,7 @@
 #include "core/machine/field.h"
 #include "core/machine/nine_parameter_model.h"
 #include "core/machine/table_polynomial.h"
-#include "widgets/pages/bound_options.h"
+#include "widgets/commands/bound_options.h"
 #include "widgets/pages/page.h"
 
 class QCheckBox;
@@ -30,7 +30,7 @@ class NineParameterPage : public Page {
   void refresh() override;
   [[nodiscard]] std::vector<Exportable> exportables() override;
   [[nodiscard]] QPushButton* primaryButton() const override { return fit_button_; }
-  void runAll() override { fit(); }
+  void runAll() override { runTask("fit"); }
   void setComponent(int index);
   [[nodiscard]] View3D* view() const { return view_; }
   [[nodiscard]] QCheckBox* higherOrderBox() const { return higher_; }
@@ -40,7 +40,7 @@ class NineParameterPage : public Page {
  private:
   void readOptions();
   void fillPoints();
-  void fit();
+  void take(const TaskGiven& given) override;
   void showFit();
   void showField();
   void showDifference(const NineParameterComparison& comparison);

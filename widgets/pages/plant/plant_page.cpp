@@ -35,8 +35,8 @@
 #include "widgets/common/parts.h"
 #include "widgets/common/words.h"
 #include "widgets/models/rows_model.h"
-#include "widgets/pages/plant/batches_panel.h"
-#include "widgets/pages/plant/plant_parts.h"
+#include "widgets/panels/plant/batches_panel.h"
+#include "widgets/panels/plant/plant_parts.h"
 #include "widgets/plots/plot.h"
 #include "widgets/theme/numbers.h"
 

@@ -21,11 +21,11 @@
 #include "core/tasks/task_options.h"
 #include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
+#include "widgets/models/cells.h"
 #include "widgets/models/rows_model.h"
-#include "widgets/pages/common/cells.h"
-#include "widgets/pages/discrepancy/effect_titles.h"
-#include "widgets/pages/probing/touch_results.h"
+#include "widgets/panels/common/effect_titles.h"
 #include "widgets/plots/plot.h"
+#include "widgets/services/touch_results.h"
 #include "widgets/theme/numbers.h"
 #include "widgets/view3d/view3d.h"
 
@@ -46,9 +46,9 @@ QString weakText(const Eigen::VectorXd& combination, const std::vector<std::stri
 CycleModelPage::CycleModelPage(PageContext page_context, QWidget* parent)
     : Page(std::move(page_context), StepId::Model, parent),
       results_(TouchResults::of(session())),
-      options_(context(), option_keys::cycles, [this] {
+      options_(session(), context().undo, option_keys::cycles, [this] {
         refresh();
-        if (session().state("fit").there) fit(true);
+        if (session().state("fit").there) runAlone("fit");
       }) {
   setInstruction(tr("Separate the errors of axes, table and artefact in every cycle, and see how well each is known."));
   fit_ = makeButton(tr("Fit all cycles"), nullptr, "primary");
@@ -93,7 +93,7 @@ CycleModelPage::CycleModelPage(PageContext page_context, QWidget* parent)
   showHints(trends_);
   showHints(view_);
   showHints(line_);
-  connect(fit_, &QPushButton::clicked, this, [this] { fit(true); });
+  connect(fit_, &QPushButton::clicked, this, [this] { runTask("fit"); });
   connect(group_, &Segments::chosen, this, &CycleModelPage::showTrends);
   connect(cycle_, &QComboBox::activated, this, [this](int) {
     showTrends();
@@ -101,38 +101,16 @@ CycleModelPage::CycleModelPage(PageContext page_context, QWidget* parent)
   });
 }
 
-HoleCycleOptions CycleModelPage::holeOptions() const {
-  const nlohmann::json json = options_.json();
-  HoleCycleOptions options;
-  options.second_axis = json.value("second_axis", false);
-  if (options.second_axis) {
-    StableLength length;
-    length.growth_um_per_m = json.value("growth_um_per_m", 0.0);
-    length.uncertainty_um_per_m = json.value("trust_um_per_m", 0.1);
-    options.stable_length = length;
-  }
-  return options;
+void CycleModelPage::take(const TaskGiven& given) {
+  if (given.inputs != results_.key()) return;  // of inputs that are no more
+  evaluation_ = given.result.as<TouchEvaluation>();
+  evaluated_key_ = given.inputs;
 }
 
-void CycleModelPage::fit(bool store) {
-  if (!session().state("evaluate").there) return;
-  const CampaignSnapshot snapshot = session().snapshot();
-  const auto list = results_.touches();
-  if (snapshot.campaign == nullptr || list == nullptr) return;
-  const HoleCycleOptions options = holeOptions();
-  const PendingResult pending = session().begin("fit");
-  const ResultWork work = [this, snapshot, list, options, key = results_.key()](JobContext& job) -> Worked {
-    auto evaluation = std::make_shared<TouchEvaluation>(evaluateTouchList(*snapshot.campaign, *list, options, {}, job));
-    const CycleEvaluation* cycles = cyclesOf(evaluation.get());
-    if (cycles == nullptr) throw InputError(tr("The touches make up no whole cycle.").toStdString());
-    return {cyclesJson(*cycles), [this, evaluation, key] {
-              if (key != results_.key()) return;  // of inputs that are no more
-              evaluation_ = evaluation;
-              evaluated_key_ = key;
-            }};
-  };
-  if (store) return run(tr("Fitting all cycles"), pending, work);
-  display(tr("Reading the cycles"), work);
+TaskInputs CycleModelPage::taskInputs() {
+  TaskInputs inputs = session().taskInputs();
+  inputs.touches = results_.touches();
+  return inputs;
 }
 
 void CycleModelPage::clear() {
@@ -169,7 +147,7 @@ void CycleModelPage::refresh() {
     return;
   }
   const bool evaluated = session().state("evaluate").there;
-  fit_->setEnabled(evaluated);
+  fit_->setEnabled(evaluated && canRun("fit"));
   if (!evaluated) {
     callout()->show(Tone::Attention, tr("The touches are not evaluated yet."));
     callout()->setAction(tr("Go to Calibrate"), [this] { context().workflow.goTo(StepId::Calibrate); });
@@ -180,7 +158,7 @@ void CycleModelPage::refresh() {
   const CycleEvaluation* cycles = cyclesOf(evaluation_.get());
   if (cycles == nullptr || (state.current && evaluated_key_ != results_.key())) {
     if (state.current) {
-      fit(false);
+      showAgain(tr("Reading the cycles"), "fit");
     } else if (state.there) {
       clear();
       callout()->show(Tone::Outdated, tr("Changed since: %1. Fit all cycles again.").arg(state.changed));

@@ -8,7 +8,7 @@
 #include "core/machine/field.h"
 #include "core/probing/evaluate_touches.h"
 #include "core/probing/volumetric_error.h"
-#include "widgets/pages/bound_options.h"
+#include "widgets/commands/bound_options.h"
 #include "widgets/pages/page.h"
 
 class QCheckBox;
@@ -33,7 +33,7 @@ class CycleModelPage : public Page {
   void refresh() override;
   [[nodiscard]] std::vector<Exportable> exportables() override;
   [[nodiscard]] QPushButton* primaryButton() const override { return fit_; }
-  void runAll() override { fit(true); }
+  void runAll() override { runTask("fit"); }
   [[nodiscard]] Plot* trends() const { return trends_; }
   [[nodiscard]] RowsModel* parameters() const { return parameters_; }
   [[nodiscard]] View3D* view() const { return view_; }
@@ -45,8 +45,8 @@ class CycleModelPage : public Page {
  private:
   [[nodiscard]] QWidget* makeVolumePart();
   [[nodiscard]] QWidget* makeBarPart();
-  [[nodiscard]] HoleCycleOptions holeOptions() const;
-  void fit(bool store);
+  void take(const TaskGiven& given) override;
+  [[nodiscard]] TaskInputs taskInputs() override;
   void clear();
   void showTrends();
   void showCycle();

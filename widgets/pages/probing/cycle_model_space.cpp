@@ -13,8 +13,8 @@
 
 #include "widgets/common/parts.h"
 #include "widgets/common/wrap_layout.h"
+#include "widgets/models/cells.h"
 #include "widgets/models/rows_model.h"
-#include "widgets/pages/common/cells.h"
 #include "widgets/pages/probing/cycle_model_page.h"
 #include "widgets/plots/plot.h"
 #include "widgets/theme/numbers.h"

@@ -8,11 +8,11 @@
 #include "core/probing/printed_text.h"
 #include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
+#include "widgets/models/cells.h"
 #include "widgets/models/rows_model.h"
-#include "widgets/pages/common/cells.h"
-#include "widgets/pages/probing/probing_scene.h"
 #include "widgets/pages/probing/touch_capture_page.h"
-#include "widgets/pages/probing/touch_results.h"
+#include "widgets/panels/common/probing_scene.h"
+#include "widgets/services/touch_results.h"
 #include "widgets/theme/numbers.h"
 
 namespace spindrift::gui {

@@ -16,12 +16,12 @@
 #include "widgets/common/parts.h"
 #include "widgets/common/preferences.h"
 #include "widgets/common/wrap_layout.h"
+#include "widgets/models/cells.h"
 #include "widgets/models/rows_model.h"
-#include "widgets/pages/capture/capture_tabs.h"
-#include "widgets/pages/common/cells.h"
-#include "widgets/pages/common/exclude_items.h"
-#include "widgets/pages/probing/probing_scene.h"
-#include "widgets/pages/probing/touch_results.h"
+#include "widgets/panels/capture/capture_tabs.h"
+#include "widgets/panels/common/exclude_items.h"
+#include "widgets/panels/common/probing_scene.h"
+#include "widgets/services/touch_results.h"
 #include "widgets/theme/numbers.h"
 
 namespace spindrift::gui {
@@ -49,17 +49,6 @@ QString direction(const Eigen::Vector3d& n) {
 }
 
 /// Of all artefacts of the campaign.
-std::vector<TouchVerdict> allVerdicts(const TouchEvaluation& evaluation) {
-  std::vector<TouchVerdict> all;
-  const auto add = [&](const CycleEvaluation& cycles) {
-    std::vector<TouchVerdict> some = touchVerdicts(evaluation, cycles);
-    std::move(some.begin(), some.end(), std::back_inserter(all));
-  };
-  for (const HoleCycleResult& r : evaluation.hole_cycles) add(r);
-  for (const BallCycleResult& r : evaluation.ball_cycles) add(r);
-  return all;
-}
-
 }  // namespace
 
 TouchCapturePage::TouchCapturePage(PageContext page_context, QWidget* parent)
@@ -119,7 +108,7 @@ TouchCapturePage::TouchCapturePage(PageContext page_context, QWidget* parent)
   showHints(view_);
   view_->setMachineVisible(false);
 
-  connect(check_, &QPushButton::clicked, this, [this] { evaluate(true); });
+  connect(check_, &QPushButton::clicked, this, [this] { runTask("check"); });
   connect(make_program_, &QPushButton::clicked, this, &TouchCapturePage::makeProgram);
   connect(control_, &QComboBox::activated, this, &TouchCapturePage::makeProgram);
   connect(state_filter_, &QComboBox::activated, this, &TouchCapturePage::fillTouches);
@@ -145,26 +134,18 @@ const Artefact* TouchCapturePage::artefact() const {
 }
 
 void TouchCapturePage::runAll() {
-  evaluate(true);
+  runTask("check");
   makeProgram();
 }
 
-void TouchCapturePage::evaluate(bool store) {
-  const CampaignSnapshot snapshot = session().snapshot();
-  const auto list = results_.touches();
-  if (snapshot.campaign == nullptr || list == nullptr) return;
-  const PendingResult pending = session().begin("check");
-  const ResultWork work = [this, snapshot, list, key = results_.key()](JobContext& job) -> Worked {
-    auto evaluation = std::make_shared<TouchEvaluation>(evaluateTouchList(*snapshot.campaign, *list, {}, {}, job));
-    nlohmann::json counts = nlohmann::json::object();
-    for (const TouchVerdict& v : allVerdicts(*evaluation)) {
-      const std::string name = stateName(v.state).toStdString();
-      counts[name] = counts.value(name, 0) + 1;
-    }
-    return {{{"touches", counts}}, [this, evaluation, key] { results_.set(key, evaluation); }};
-  };
-  if (store) return run(tr("Checking the touches"), pending, work);
-  display(tr("Reading the touches"), work);
+void TouchCapturePage::take(const TaskGiven& given) {
+  if (auto evaluation = given.result.as<TouchEvaluation>()) results_.set(given.inputs, std::move(evaluation));
+}
+
+TaskInputs TouchCapturePage::taskInputs() {
+  TaskInputs inputs = session().taskInputs();
+  inputs.touches = results_.touches();
+  return inputs;
 }
 
 void TouchCapturePage::refresh() {
@@ -191,7 +172,7 @@ void TouchCapturePage::refresh() {
   forgetOldProgram();
   // What another page has evaluated since may be of other inputs.
   if (const ResultState check = session().state("check"); (other ? check.there : check.current) && !results_.current())
-    evaluate(false);
+    showAgain(tr("Reading the touches"), "check");
   const auto evaluation = results_.last();
   judged_ = evaluation != nullptr;
   verdicts_.clear();

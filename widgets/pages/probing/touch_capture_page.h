@@ -37,7 +37,8 @@ class TouchCapturePage : public Page {
   [[nodiscard]] QString pickedItem() const override { return selectedTouches().value(0); }
 
  private:
-  void evaluate(bool store);
+  void take(const TaskGiven& given) override;
+  [[nodiscard]] TaskInputs taskInputs() override;
   void fillCycles();
   void fillTouches();
   void showVerdict();

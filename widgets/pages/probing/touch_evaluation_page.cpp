@@ -17,11 +17,11 @@
 #include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
 #include "widgets/common/preferences.h"
+#include "widgets/models/cells.h"
 #include "widgets/models/rows_model.h"
-#include "widgets/pages/common/cells.h"
-#include "widgets/pages/probing/reference_panel.h"
-#include "widgets/pages/probing/touch_results.h"
+#include "widgets/panels/probing/reference_panel.h"
 #include "widgets/plots/plot.h"
+#include "widgets/services/touch_results.h"
 #include "widgets/theme/numbers.h"
 
 namespace spindrift::gui {
@@ -112,52 +112,23 @@ TouchEvaluationPage::TouchEvaluationPage(PageContext page_context, QWidget* pare
   right->body()->addWidget(plot_, 1);
   content()->addWidget(makeSplitter(left, right, 9, 5), 1);
   showHints(plot_);
-  connect(evaluate_, &QPushButton::clicked, this, &TouchEvaluationPage::evaluate);
+  connect(evaluate_, &QPushButton::clicked, this, [this] { runTask("evaluate"); });
   connect(cycle_, &QComboBox::activated, this, &TouchEvaluationPage::showFeatures);
   connect(point_, &QComboBox::activated, this, &TouchEvaluationPage::showDeviations);
 }
 
-TouchEvaluationPage::Details TouchEvaluationPage::detailsOf(const CampaignSnapshot& snapshot, const TouchList& list,
-                                                            JobContext& job) {
-  Details details;
-  auto evaluation = std::make_shared<TouchEvaluation>(evaluateTouchList(*snapshot.campaign, list, {}, {}, job));
-  // Only spheres qualify a probe; a hole bar says nothing about it.
-  if (!evaluation->ball_cycles.empty())
-    details.health = checkProbeHealth(evaluation->touches, snapshot.campaign->machine);
-  if (const CycleEvaluation* cycles = cyclesOf(evaluation.get())) details.repeatability = studyRepeatability(*cycles);
-  details.evaluation = std::move(evaluation);
-  return details;
+void TouchEvaluationPage::take(const TaskGiven& given) {
+  const auto detail = given.result.as<EvaluationDetail>();
+  if (detail == nullptr || given.inputs != results_.key()) return;  // of inputs that are no more
+  details_ = *detail;
+  details_key_ = given.inputs;
+  results_.set(given.inputs, detail->touches);
 }
 
-void TouchEvaluationPage::evaluate() {
-  const CampaignSnapshot snapshot = session().snapshot();
-  const auto list = results_.touches();
-  if (snapshot.campaign == nullptr || list == nullptr) return;
-  const PendingResult pending = session().begin("evaluate");
-  run(tr("Evaluating the touches"), pending, [this, snapshot, list, key = results_.key()](JobContext& job) -> Worked {
-    JobContext first = job.part(0.0, 0.5);
-    JobContext second = job.part(0.5, 1.0);
-    nlohmann::json payload = payloadOf(evaluateCampaign(*snapshot.campaign, {}, first));
-    return {std::move(payload), takeDetails(key, detailsOf(snapshot, *list, second))};
-  });
-}
-
-void TouchEvaluationPage::restore() {
-  const CampaignSnapshot snapshot = session().snapshot();
-  const auto list = results_.touches();
-  if (snapshot.campaign == nullptr || list == nullptr) return;
-  display(tr("Reading the evaluation"), [this, snapshot, list, key = results_.key()](JobContext& job) -> Worked {
-    return {{}, takeDetails(key, detailsOf(snapshot, *list, job))};
-  });
-}
-
-std::function<void()> TouchEvaluationPage::takeDetails(const std::string& key, Details details) {
-  return [this, key, details = std::move(details)] {
-    if (key != results_.key()) return;  // of inputs that are no more
-    details_ = details;
-    details_.key = key;
-    results_.set(key, details_.evaluation);
-  };
+TaskInputs TouchEvaluationPage::taskInputs() {
+  TaskInputs inputs = session().taskInputs();
+  inputs.touches = results_.touches();
+  return inputs;
 }
 
 void TouchEvaluationPage::clear() {
@@ -176,6 +147,7 @@ void TouchEvaluationPage::refresh() {
   if (session().campaign() == nullptr) return;
   if (noticeCampaign()) {
     details_ = {};
+    details_key_.clear();
     clear();
   }
   if (results_.touches() == nullptr) {
@@ -201,9 +173,9 @@ void TouchEvaluationPage::refresh() {
   } else {
     callout()->show(Tone::Good, tr("Deviations found: %1, no warnings.").arg(stored->observations.rows.size()));
   }
-  const CycleEvaluation* cycles = cyclesOf(details_.evaluation.get());
-  const bool other_inputs = state.current && details_.key != results_.key();
-  if (other_inputs) restore();
+  const CycleEvaluation* cycles = cyclesOf(details_.touches.get());
+  const bool other_inputs = state.current && details_key_ != results_.key();
+  if (other_inputs) showAgain(tr("Reading the evaluation"), "evaluate");
   if (other_inputs || cycles == nullptr) {
     showDeviations();
     return;
@@ -213,20 +185,20 @@ void TouchEvaluationPage::refresh() {
   for (const std::string& name : cycles->cycles) cycle_->addItem(fromCore(name));
   const int at = cycle_->findText(chosen);
   cycle_->setCurrentIndex(at >= 0 ? at : cycle_->count() - 1);
-  if (details_.evaluation->hole_cycles.size() + details_.evaluation->ball_cycles.size() > 1) {
+  if (details_.touches->hole_cycles.size() + details_.touches->ball_cycles.size() > 1) {
     callout()->show(Tone::Attention, tr("This page shows %1. The other artefacts are evaluated too: their deviations "
                                         "stand in the observations and in the report.")
                                          .arg(fromCore(cycles->artefact)));
   }
   showTiles(*cycles);
   showFeatures();
-  showLeftOut(*details_.evaluation, *cycles);
+  showLeftOut(*details_.touches, *cycles);
   showLengths();
   showComparison();
   showRepeatability();
   showHealth();
   showDeviations();
-  reference_->setCycles(details_.evaluation);
+  reference_->setCycles(details_.touches);
 }
 
 void TouchEvaluationPage::showTiles(const CycleEvaluation& cycles) {
@@ -240,13 +212,13 @@ void TouchEvaluationPage::showTiles(const CycleEvaluation& cycles) {
     if (sigma.size() > 1) note = tr("%1 µm along the axis").arg(decimalText(sigma[1] * um_per_mm, 'f', 2));
     noise_->set(QStringLiteral("%1 µm").arg(decimalText(sigma[0] * um_per_mm, 'f', 2)), note);
   }
-  if (!details_.evaluation->hole_cycles.empty()) {
-    const HoleCycleResult& holes = details_.evaluation->hole_cycles.front();
+  if (!details_.touches->hole_cycles.empty()) {
+    const HoleCycleResult& holes = details_.touches->hole_cycles.front();
     length_->set(QStringLiteral("%1 µm").arg(decimalText(holes.largest_nonlinearity_um, 'f', 2)),
                  tr("deviation of a hole from the straight line, all cycles"));
   } else {
     double largest = 0;
-    for (const BallDistance& d : details_.evaluation->ball_cycles.front().distances)
+    for (const BallDistance& d : details_.touches->ball_cycles.front().distances)
       largest = std::max(largest, std::abs(d.error_um));
     length_->set(QStringLiteral("%1 µm").arg(decimalText(largest, 'f', 1)), tr("of a distance between balls"));
   }
@@ -265,9 +237,9 @@ void TouchEvaluationPage::showTiles(const CycleEvaluation& cycles) {
 }
 
 void TouchEvaluationPage::showFeatures() {
-  const CycleEvaluation* cycles = cyclesOf(details_.evaluation.get());
+  const CycleEvaluation* cycles = cyclesOf(details_.touches.get());
   if (cycles == nullptr) return;
-  const bool holes = !details_.evaluation->hole_cycles.empty();
+  const bool holes = !details_.touches->hole_cycles.empty();
   std::vector<Row> rows;
   for (const ProbedFeature& f : cycles->features) {
     if (fromCore(f.cycle) != cycle_->currentText()) continue;
@@ -317,10 +289,10 @@ void TouchEvaluationPage::showLeftOut(const TouchEvaluation& evaluation, const C
 
 void TouchEvaluationPage::showLengths() {
   std::vector<Row> rows;
-  if (!details_.evaluation->hole_cycles.empty()) {
+  if (!details_.touches->hole_cycles.empty()) {
     lengths_->setHeaders({tr("Hole"), tr("rms / µm"), tr("Largest / µm"), tr("In cycle"), tr("Noise / µm")});
     tabs_->setTabText(2, tr("Straight line"));
-    for (const LinearityDeviation& d : details_.evaluation->hole_cycles.front().linearity) {
+    for (const LinearityDeviation& d : details_.touches->hole_cycles.front().linearity) {
       Row row;
       row.id = fromCore(d.feature);
       row.cells = {nameCell(row.id), numberCell(d.rms_um, 2), numberCell(d.largest_um, 2),
@@ -331,7 +303,7 @@ void TouchEvaluationPage::showLengths() {
     lengths_->setHeaders(
         {tr("Balls"), tr("Cycle"), tr("Stylus"), tr("Error / µm"), tr("Certified / mm"), tr("Verdict")});
     tabs_->setTabText(2, tr("Distances"));
-    for (const BallDistance& d : details_.evaluation->ball_cycles.front().distances) {
+    for (const BallDistance& d : details_.touches->ball_cycles.front().distances) {
       Row row;
       row.id = fromCore(d.cycle + d.stylus + d.from + d.to);
       const bool inside = std::abs(d.error_um) <= 2.0 * d.standard_uncertainty_um;
@@ -355,8 +327,8 @@ void TouchEvaluationPage::showComparison() {
   };
   std::vector<Row> rows;
   const MachineDescription& machine = session().campaign()->machine;
-  if (!details_.evaluation->hole_cycles.empty()) {
-    const HoleCycleResult& holes = details_.evaluation->hole_cycles.front();
+  if (!details_.touches->hole_cycles.empty()) {
+    const HoleCycleResult& holes = details_.touches->hole_cycles.front();
     tabs_->setTabText(3, tr("Certificate"));
     comparison_->setHeaders({tr("Cycle"), tr("Bar / °C"),
                              tr("%1 against certificate / (µm/m)").arg(fromCore(holes.setup.linear)),
@@ -395,7 +367,7 @@ void TouchEvaluationPage::showComparison() {
     comparison_->setHeaders({tr("Cycle"), tr("Ball"), tr("Closed forms X, Y, Z / µrad"),
                              tr("Joint evaluation X, Y, Z / µrad"), tr("Stylus 0 moved / µm"), tr("Joint drift / µm")});
     double off_urad = 0.0;
-    for (const HeadComparison& c : closedFormsBeside(details_.evaluation->ball_cycles.front(), machine)) {
+    for (const HeadComparison& c : closedFormsBeside(details_.touches->ball_cycles.front(), machine)) {
       Row row;
       row.id = fromCore(c.cycle + "/" + c.ball);
       QStringList closed;

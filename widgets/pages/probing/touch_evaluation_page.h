@@ -26,7 +26,7 @@ class TouchEvaluationPage : public Page {
   void refresh() override;
   [[nodiscard]] std::vector<Exportable> exportables() override;
   [[nodiscard]] QPushButton* primaryButton() const override { return evaluate_; }
-  void runAll() override { evaluate(); }
+  void runAll() override { runTask("evaluate"); }
   [[nodiscard]] RowsModel* features() const { return features_; }
   [[nodiscard]] RowsModel* leftOut() const { return left_out_; }
   /// Closed forms of the papers, or the lengths of the certificate, beside the joint evaluation.
@@ -37,17 +37,8 @@ class TouchEvaluationPage : public Page {
 
  private:
   /// What a job finds beside the stored result.
-  struct Details {
-    std::string key;  ///< names its inputs (TouchResults::key)
-    std::shared_ptr<const TouchEvaluation> evaluation;
-    std::vector<StylusHealth> health;
-    RepeatabilityStudy repeatability;
-  };
-  void evaluate();
-  void restore();
-  [[nodiscard]] static Details detailsOf(const CampaignSnapshot& snapshot, const TouchList& list, JobContext& job);
-  /// To take them over, unless they are of inputs that are no more.
-  [[nodiscard]] std::function<void()> takeDetails(const std::string& key, Details details);
+  void take(const TaskGiven& given) override;
+  [[nodiscard]] TaskInputs taskInputs() override;
   void clear();
   void showTiles(const CycleEvaluation& cycles);
   void showFeatures();
@@ -59,7 +50,8 @@ class TouchEvaluationPage : public Page {
   void showDeviations();
 
   TouchResults& results_;
-  Details details_;
+  EvaluationDetail details_;
+  std::string details_key_;  ///< names their inputs (TouchResults::key)
   QPushButton* evaluate_;
   NumberTile* used_;
   NumberTile* noise_;

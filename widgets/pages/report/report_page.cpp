@@ -26,7 +26,7 @@
 #include "widgets/common/parts.h"
 #include "widgets/jobs/task_job.h"
 #include "widgets/models/rows_model.h"
-#include "widgets/pages/discrepancy/effect_titles.h"
+#include "widgets/panels/common/effect_titles.h"
 #include "widgets/report/page_view.h"
 #include "widgets/report/report_pages.h"
 
@@ -44,7 +44,8 @@ void saveCopy(const std::filesystem::path& html, const std::filesystem::path& pd
 }  // namespace
 
 ReportPage::ReportPage(PageContext page_context, QWidget* parent)
-    : Page(std::move(page_context), StepId::Report, parent), options_(context(), option_keys::report, [this] {
+    : Page(std::move(page_context), StepId::Report, parent),
+      options_(session(), context().undo, option_keys::report, [this] {
         context().workflow.refresh();
         refresh();
       }) {
@@ -132,7 +133,7 @@ void ReportPage::refresh() {
   if (session().campaign() == nullptr) return;
   const bool other = noticeCampaign();
   callout()->setAction({}, {});
-  const bool possible = canReport(*session().campaign(), session().observations() != nullptr);
+  const bool possible = canRun(report_result);
   write_->setEnabled(possible);
   discrepancy_->setVisible(!session().campaign()->simulation.empty());
   const ReportTaskOptions asked = ReportTaskOptions::of(*session().session(), session().campaignId());
@@ -242,12 +243,7 @@ void ReportPage::keepOperator() {
 
 void ReportPage::write() {
   keepOperator();
-  if (!canReport(*session().campaign(), session().observations() != nullptr)) return;
-  const PendingResult pending = session().begin(report_result);
-  run(tr("Writing the report"), pending,
-      [task = ReportTask::of(session().tasks(), session().excludedItems())](JobContext& progress) -> Worked {
-        return {task.run(progress), {}};
-      });
+  runTask(report_result);
 }
 
 void ReportPage::openInBrowser() {

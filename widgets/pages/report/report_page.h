@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <memory>
 
-#include "widgets/pages/bound_options.h"
+#include "widgets/commands/bound_options.h"
 #include "widgets/pages/page.h"
 
 class QCheckBox;

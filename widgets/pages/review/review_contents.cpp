@@ -10,9 +10,9 @@
 #include "core/base/error.h"
 #include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
-#include "widgets/pages/common/cells.h"
+#include "widgets/models/cells.h"
 #include "widgets/pages/review/review_page.h"
-#include "widgets/pages/review/review_pane.h"
+#include "widgets/panels/review/review_pane.h"
 #include "widgets/view3d/view3d.h"
 
 namespace spindrift::gui {

@@ -9,7 +9,7 @@
 #include <memory>
 
 #include "widgets/pages/page.h"
-#include "widgets/pages/review/review_sources.h"
+#include "widgets/services/review_sources.h"
 
 class QCheckBox;
 class QDoubleSpinBox;

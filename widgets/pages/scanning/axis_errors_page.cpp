@@ -17,12 +17,12 @@
 #include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
 #include "widgets/common/words.h"
+#include "widgets/models/cells.h"
 #include "widgets/models/rows_model.h"
-#include "widgets/pages/common/cells.h"
-#include "widgets/pages/scanning/scan_results.h"
 #include "widgets/plots/plot.h"
 #include "widgets/plots/plot_grid.h"
 #include "widgets/plots/surface_plot.h"
+#include "widgets/services/scan_results.h"
 #include "widgets/theme/numbers.h"
 
 namespace spindrift::gui {
@@ -69,9 +69,9 @@ double cycleDuration(const ScanEvaluation& evaluation) {
 AxisErrorsPage::AxisErrorsPage(PageContext page_context, QWidget* parent)
     : Page(std::move(page_context), StepId::Model, parent),
       results_(ScanResults::of(session())),
-      options_(context(), option_keys::scan_model, [this] {
+      options_(session(), context().undo, option_keys::scan_model, [this] {
         refresh();
-        if (session().state("fit").there) fit(true);
+        if (session().state("fit").there) runAlone("fit");
       }) {
   setInstruction(tr("See the six errors of the axis over positions and time, and which of them the scans can show."));
   fit_ = makeButton(tr("Find the six errors"), nullptr, "primary");
@@ -115,7 +115,7 @@ AxisErrorsPage::AxisErrorsPage(PageContext page_context, QWidget* parent)
   content()->addWidget(makeSplitter(left, right, 6, 6), 1);
   showHints(series_);
   showHints(surface_);
-  connect(fit_, &QPushButton::clicked, this, [this] { fit(true); });
+  connect(fit_, &QPushButton::clicked, this, [this] { runTask("fit"); });
   connect(model_, &Segments::chosen, this, &AxisErrorsPage::chooseModel);
   const auto again = [this] {
     if (const auto evaluation = results_.last(chosenModel())) show(*evaluation);
@@ -140,21 +140,10 @@ void AxisErrorsPage::setComponent(int index) {
   if (const auto evaluation = results_.last(chosenModel())) show(*evaluation);
 }
 
-void AxisErrorsPage::fit(bool store) {
-  const CampaignSnapshot snapshot = session().snapshot();
-  if (snapshot.campaign == nullptr || !session().state("evaluate").there) return;
-  const PendingResult pending = session().begin("fit");
-  const ResultWork work = [this, snapshot, store, key = results_.key(),
-                           model = chosenModel()](JobContext& job) -> Worked {
-    JobContext first = job.part(0.0, store ? 0.5 : 1.0);
-    JobContext second = job.part(0.5, 1.0);
-    auto evaluation = std::make_shared<ScanEvaluation>(evaluateScanCampaign(*snapshot.campaign, model, first));
-    nlohmann::json payload;
-    if (store) payload = evaluateScans(*snapshot.campaign, model, second).details;
-    return {std::move(payload), [this, key, model, evaluation] { results_.set(key, model, evaluation); }};
-  };
-  if (store) return run(tr("Finding the six errors"), pending, work);
-  display(tr("Reading the six errors"), work);
+void AxisErrorsPage::take(const TaskGiven& given) {
+  const auto model = given.origin.options.at("scan_model").get<std::string>();
+  if (auto evaluation = given.result.as<ScanEvaluation>())
+    results_.set(given.inputs, model.empty() ? results_.modelOfMachine() : model, std::move(evaluation));
 }
 
 void AxisErrorsPage::clear() {
@@ -171,7 +160,7 @@ void AxisErrorsPage::refresh() {
   }
   model_->setCurrent(chosenModel() == models[1] ? 1 : 0);
   const bool evaluated = session().state("evaluate").there;
-  fit_->setEnabled(evaluated);
+  fit_->setEnabled(evaluated && canRun("fit"));
   callout()->setAction({}, {});
   if (!evaluated) {
     callout()->show(Tone::Attention, tr("The scans are not evaluated yet."));
@@ -187,7 +176,7 @@ void AxisErrorsPage::refresh() {
   }
   const auto evaluation = results_.last(chosenModel());
   if (state.current && !results_.current(chosenModel())) {
-    fit(false);
+    showAgain(tr("Reading the six errors"), "fit");
     return;
   }
   if (evaluation == nullptr) {

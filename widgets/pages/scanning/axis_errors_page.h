@@ -6,7 +6,7 @@
 #include <array>
 
 #include "core/scanning/axis_errors.h"
-#include "widgets/pages/bound_options.h"
+#include "widgets/commands/bound_options.h"
 #include "widgets/pages/page.h"
 
 class QTabWidget;
@@ -30,7 +30,7 @@ class AxisErrorsPage : public Page {
   void refresh() override;
   [[nodiscard]] std::vector<Exportable> exportables() override;
   [[nodiscard]] QPushButton* primaryButton() const override { return fit_; }
-  void runAll() override { fit(true); }
+  void runAll() override { runTask("fit"); }
   [[nodiscard]] RowsModel* values() const { return values_; }
   [[nodiscard]] RowsModel* observability() const { return observability_; }
   [[nodiscard]] PlotGrid* series() const { return series_; }
@@ -41,7 +41,7 @@ class AxisErrorsPage : public Page {
 
  private:
   [[nodiscard]] std::string chosenModel() const;
-  void fit(bool store);
+  void take(const TaskGiven& given) override;
   void chooseModel(int index);
   void clear();
   void show(const ScanEvaluation& evaluation);

@@ -14,10 +14,10 @@
 #include "core/workflows/evaluate_campaign.h"
 #include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
+#include "widgets/models/cells.h"
 #include "widgets/models/rows_model.h"
-#include "widgets/pages/common/cells.h"
-#include "widgets/pages/scanning/scan_results.h"
 #include "widgets/plots/plot.h"
+#include "widgets/services/scan_results.h"
 #include "widgets/theme/numbers.h"
 
 namespace spindrift::gui {
@@ -65,24 +65,12 @@ ProfilerCalibrationPage::ProfilerCalibrationPage(PageContext page_context, QWidg
   right->body()->addWidget(residuals_, 1);
   content()->addWidget(makeSplitter(left, right, 9, 5), 1);
   showHints(residuals_);
-  connect(evaluate_, &QPushButton::clicked, this, [this] { evaluate(true); });
+  connect(evaluate_, &QPushButton::clicked, this, [this] { runTask("evaluate"); });
 }
 
-void ProfilerCalibrationPage::evaluate(bool store) {
-  const CampaignSnapshot snapshot = session().snapshot();
-  if (snapshot.campaign == nullptr) return;
-  const PendingResult pending = session().begin("evaluate");
-  const ResultWork work = [this, snapshot, store, key = results_.key(),
-                           model = results_.modelOfMachine()](JobContext& job) -> Worked {
-    JobContext first = job.part(0.0, store ? 0.5 : 1.0);
-    JobContext second = job.part(0.5, 1.0);
-    auto details = std::make_shared<ScanEvaluation>(evaluateScanCampaign(*snapshot.campaign, "", first));
-    nlohmann::json payload;
-    if (store) payload = payloadOf(evaluateCampaign(*snapshot.campaign, {}, second));
-    return {std::move(payload), [this, key, model, details] { results_.set(key, model, details); }};
-  };
-  if (store) return run(tr("Evaluating the scans"), pending, work);
-  display(tr("Reading the evaluation"), work);
+void ProfilerCalibrationPage::take(const TaskGiven& given) {
+  if (const auto detail = given.result.as<EvaluationDetail>())
+    results_.set(given.inputs, results_.modelOfMachine(), detail->scans);
 }
 
 void ProfilerCalibrationPage::clear() {
@@ -126,7 +114,8 @@ void ProfilerCalibrationPage::refresh() {
                     tr("Deviations found: %1, no warnings.").arg(static_cast<int>(stored->observations.rows.size())));
   }
   const auto evaluation = results_.last(results_.modelOfMachine());
-  if (state.current && !results_.current(results_.modelOfMachine())) return evaluate(false);
+  if (state.current && !results_.current(results_.modelOfMachine()))
+    return showAgain(tr("Reading the evaluation"), "evaluate");
   if (evaluation == nullptr) return;
   showCalibration(*evaluation);
   showScans(*evaluation);

@@ -25,13 +25,13 @@ class ProfilerCalibrationPage : public Page {
   void refresh() override;
   [[nodiscard]] std::vector<Exportable> exportables() override;
   [[nodiscard]] QPushButton* primaryButton() const override { return evaluate_; }
-  void runAll() override { evaluate(true); }
+  void runAll() override { runTask("evaluate"); }
   [[nodiscard]] RowsModel* calibration() const { return calibration_; }
   [[nodiscard]] RowsModel* registrations() const { return registrations_; }
   [[nodiscard]] Plot* residuals() const { return residuals_; }
 
  private:
-  void evaluate(bool store);
+  void take(const TaskGiven& given) override;
   void clear();
   void showCalibration(const ScanEvaluation& evaluation);
   void showScans(const ScanEvaluation& evaluation);

@@ -13,19 +13,19 @@
 #include <cmath>
 
 #include "core/base/error.h"
+#include "core/tasks/scan_check_payload.h"
 #include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
 #include "widgets/common/wrap_layout.h"
+#include "widgets/models/cells.h"
 #include "widgets/models/rows_model.h"
-#include "widgets/pages/capture/capture_tabs.h"
-#include "widgets/pages/common/cells.h"
-#include "widgets/pages/common/exclude_items.h"
-#include "widgets/pages/scanning/cloud_painter.h"
-#include "widgets/pages/scanning/profile_series.h"
-#include "widgets/pages/scanning/scan_check_payload.h"
-#include "widgets/pages/scanning/scan_mask_bar.h"
-#include "widgets/pages/scanning/scan_results.h"
+#include "widgets/panels/capture/capture_tabs.h"
+#include "widgets/panels/common/exclude_items.h"
+#include "widgets/panels/scanning/cloud_painter.h"
+#include "widgets/panels/scanning/profile_series.h"
+#include "widgets/panels/scanning/scan_mask_bar.h"
 #include "widgets/plots/plot.h"
+#include "widgets/services/scan_results.h"
 #include "widgets/theme/numbers.h"
 #include "widgets/view3d/view3d.h"
 
@@ -94,7 +94,7 @@ ScanCapturePage::ScanCapturePage(PageContext page_context, QWidget* parent)
   showHints(profile_);
   showHints(view_);
 
-  connect(check_, &QPushButton::clicked, this, &ScanCapturePage::check);
+  connect(check_, &QPushButton::clicked, this, [this] { runTask("check"); });
   connect(exclude_, &QPushButton::clicked, this, &ScanCapturePage::toggleExcluded);
   connect(colouring_, &Segments::chosen, this, &ScanCapturePage::loadCloud);
   connect(part_, &Segments::chosen, this, [this](int part) {
@@ -129,15 +129,6 @@ std::string ScanCapturePage::referenceOf(const std::string& cloud) const {
     if (c.artefact == own->artefact && !session().excluded().contains(fromCore(c.cloud))) return c.cloud;
   }
   return {};
-}
-
-void ScanCapturePage::check() {
-  const CampaignSnapshot snapshot = session().snapshot();
-  if (snapshot.campaign == nullptr) return;
-  const PendingResult pending = session().begin("check");
-  run(tr("Checking the scans"), pending, [snapshot](JobContext& job) -> Worked {
-    return {payloadOfScanChecks(checkScans(*snapshot.campaign, job)), {}};
-  });
 }
 
 void ScanCapturePage::refresh() {

@@ -28,7 +28,7 @@ class ScanCapturePage : public Page {
   void refresh() override;
   [[nodiscard]] std::vector<Exportable> exportables() override;
   [[nodiscard]] QPushButton* primaryButton() const override { return check_; }
-  void runAll() override { check(); }
+  void runAll() override { runTask("check"); }
   [[nodiscard]] RowsModel* scans() const { return rows_; }
   [[nodiscard]] View3D* view() const { return view_; }
   [[nodiscard]] Plot* profile() const { return profile_; }
@@ -44,7 +44,6 @@ class ScanCapturePage : public Page {
   [[nodiscard]] QString pickedItem() const override { return selected(); }
 
  private:
-  void check();
   void fillTable();
   void loadCloud();
   void showCloud();

@@ -22,10 +22,10 @@
 #include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
 #include "widgets/common/words.h"
+#include "widgets/models/cells.h"
 #include "widgets/models/rows_model.h"
-#include "widgets/pages/common/cells.h"
-#include "widgets/pages/thermal/iso_panel.h"
-#include "widgets/pages/thermal/update_panel.h"
+#include "widgets/panels/thermal/iso_panel.h"
+#include "widgets/panels/thermal/update_panel.h"
 #include "widgets/plots/plot.h"
 #include "widgets/theme/numbers.h"
 
@@ -38,7 +38,7 @@ constexpr std::array<const char*, 3> methods{"response", "arx", "oe"};
 
 ThermalModelPage::ThermalModelPage(PageContext page_context, QWidget* parent)
     : Page(std::move(page_context), StepId::Model, parent),
-      options_(context(), option_keys::thermal, [this] { refresh(); }) {
+      options_(session(), context().undo, option_keys::thermal, [this] { refresh(); }) {
   setInstruction(tr("Train a model over time on one part of the log and judge it in free run on another."));
   identify_ = makeButton(tr("Identify the model"), nullptr, "primary");
   addModelSwitch(false);
@@ -61,7 +61,7 @@ ThermalModelPage::ThermalModelPage(PageContext page_context, QWidget* parent)
   content()->addWidget(makeSplitter(top, makeDetails(), 6, 8), 1);
   for (Plot* plot : {series_plot_, step_plot_, residual_plot_, updates_->plot(), iso_->plot()}) showHints(plot);
 
-  connect(identify_, &QPushButton::clicked, this, [this] { identify(true); });
+  connect(identify_, &QPushButton::clicked, this, [this] { runTask("thermal"); });
   connect(what_, &Segments::chosen, this, &ThermalModelPage::showSeries);
   connect(series_plot_, &Plot::spanMoved, this, [this](int index, double from, double to) {
     changeRange(index == 0, from * seconds_per_hour, to * seconds_per_hour);
@@ -184,32 +184,7 @@ void ThermalModelPage::changeRange(bool train, double from_s, double to_s) {
 }
 
 IdentifyRequest ThermalModelPage::request() const {
-  IdentifyRequest r;
-  if (series_ == nullptr) return r;
-  const nlohmann::json json = options_.json();
-  const std::vector<std::string> outputs = outputSignals(*series_);
-  r.log = series_->file;
-  r.output = json.value("output", std::string());
-  if (std::find(outputs.begin(), outputs.end(), r.output) == outputs.end() && !outputs.empty())
-    r.output = outputs.front();
-  const double first = series_->time_s.front();
-  const double last = series_->time_s.back();
-  const double middle = std::round(0.5 * (first + last));
-  const auto range = [&](const char* key, double from, double to) {
-    const nlohmann::json value = json.value(key, nlohmann::json());
-    if (value.is_array() && value.size() == 2) return TimeRange{value[0].get<double>(), value[1].get<double>()};
-    return TimeRange{from, to};
-  };
-  r.train = range("train", first, middle);
-  r.test = range("test", middle, last);
-  r.method = json.value("method", std::string("response"));
-  // Cycles are too rare for the methods that need a value at every row.
-  if (const Signal* signal = series_->find(r.output); signal != nullptr && isSparse(*signal)) r.method = "response";
-  for (const auto& name : json.value("inputs", nlohmann::json::array())) {
-    const auto text = name.get<std::string>();
-    if (series_->find(text) != nullptr && text != r.output) r.inputs.push_back(text);
-  }
-  return r;
+  return series_ == nullptr ? IdentifyRequest() : identifyRequest(options_.json(), *series_);
 }
 
 std::string ThermalModelPage::inputsKey() {
@@ -243,31 +218,18 @@ void ThermalModelPage::load() {
               sigma_ = sigma;
               if (failure.empty()) series_ = series;
               refresh();
-              if (std::exchange(wanted_, -1) == session().visit()) identify(true);
             };
           });
 }
 
-void ThermalModelPage::runAll() {
-  wanted_ = series_ == nullptr ? session().visit() : -1;
-  identify(true);
+void ThermalModelPage::take(const TaskGiven& given) {
+  if (given.inputs == session().inputsKey()) result_ = given.result.as<IdentifyResult>();
 }
 
-void ThermalModelPage::identify(bool store) {
-  if (series_ == nullptr) return;
-  const IdentifyRequest asked = request();
-  const PendingResult pending = session().begin("thermal");
-  const ResultWork work = [this, series = series_, asked, json = options_.json(),
-                           loaded = loaded_](JobContext& job) -> Worked {
-    auto result = std::make_shared<IdentifyResult>(identifyThermalModel(*series, asked, job));
-    return {result->json(), [this, result, json, loaded] {
-              if (loaded != loaded_) return;
-              result_ = result;
-              result_options_ = json;
-            }};
-  };
-  if (store) return run(tr("Identifying the model"), pending, work);
-  display(tr("Reading the model"), work);
+TaskInputs ThermalModelPage::taskInputs() {
+  TaskInputs inputs = session().taskInputs();
+  if (loaded_ == inputsKey()) inputs.series = series_;
+  return inputs;
 }
 
 void ThermalModelPage::clear() {
@@ -293,7 +255,7 @@ void ThermalModelPage::refresh() {
   updates_->set(series_, result_, sigma == sigma_.end() ? 0.5 : sigma->second);
   const ResultState state = session().state("thermal");
   if (result_ == nullptr && state.current) {
-    identify(false);
+    showAgain(tr("Reading the model"), "thermal");
     showSeries();
     return;
   }
@@ -302,7 +264,7 @@ void ThermalModelPage::refresh() {
                     state.there ? tr("Changed since: %1. Identify the model again.").arg(state.changed)
                                 : tr("Drag the edges of the training and the test range, then press Identify the "
                                      "model. Nothing measured in the test range is used."));
-  } else if (!state.current || result_options_ != options_.json()) {
+  } else if (!state.current) {
     callout()->show(Tone::Outdated, tr("Changed since: %1. Identify the model again.").arg(state.changed));
   } else if (!result_->good_enough) {
     callout()->show(Tone::Attention, tr("In the test range the model is no better than the baselines. Train on a "

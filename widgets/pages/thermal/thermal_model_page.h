@@ -9,7 +9,7 @@
 #include <optional>
 
 #include "core/workflows/thermal_workflow.h"
-#include "widgets/pages/bound_options.h"
+#include "widgets/commands/bound_options.h"
 #include "widgets/pages/page.h"
 
 class QComboBox;
@@ -32,7 +32,7 @@ class ThermalModelPage : public Page {
   void refresh() override;
   [[nodiscard]] std::vector<Exportable> exportables() override;
   [[nodiscard]] QPushButton* primaryButton() const override { return identify_; }
-  void runAll() override;
+  void runAll() override { runTask("thermal"); }
   [[nodiscard]] Plot* seriesPlot() const { return series_plot_; }
   [[nodiscard]] Plot* stepPlot() const { return step_plot_; }
   [[nodiscard]] RowsModel* comparison() const { return comparison_; }
@@ -51,7 +51,8 @@ class ThermalModelPage : public Page {
   void load();
   /// Names what the series is made of: it is read again when this changes.
   [[nodiscard]] std::string inputsKey();
-  void identify(bool store);
+  void take(const TaskGiven& given) override;
+  [[nodiscard]] TaskInputs taskInputs() override;
   void clear();
   void fillChoices();
   void fillInputs();
@@ -64,11 +65,9 @@ class ThermalModelPage : public Page {
 
   std::shared_ptr<const TimeSeries> series_;
   std::shared_ptr<const IdentifyResult> result_;
-  nlohmann::json result_options_;        ///< of result_
   std::string loaded_;                   ///< folder of the campaign whose log is in series_
   std::map<std::string, double> sigma_;  ///< of one value of a sparse output
   QString failure_;
-  std::int64_t wanted_ = -1;  ///< visit for which a model is to be identified as soon as the log is read; -1: none
 
   QPushButton* identify_;
   QComboBox* output_;

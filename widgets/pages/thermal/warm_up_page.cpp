@@ -16,11 +16,11 @@
 #include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
 #include "widgets/models/rows_model.h"
-#include "widgets/pages/capture/machine_state_line.h"
-#include "widgets/pages/machine/connections_service.h"
-#include "widgets/pages/thermal/clock_panel.h"
-#include "widgets/pages/thermal/resolution_check_panel.h"
+#include "widgets/panels/capture/machine_state_line.h"
+#include "widgets/panels/thermal/clock_panel.h"
+#include "widgets/panels/thermal/resolution_check_panel.h"
 #include "widgets/plots/plot.h"
+#include "widgets/services/connections_service.h"
 #include "widgets/theme/numbers.h"
 
 namespace spindrift::gui {

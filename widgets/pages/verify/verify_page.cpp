@@ -21,11 +21,11 @@
 #include "widgets/common/parts.h"
 #include "widgets/common/words.h"
 #include "widgets/common/wrap_layout.h"
+#include "widgets/models/cells.h"
 #include "widgets/models/rows_model.h"
-#include "widgets/pages/common/cells.h"
-#include "widgets/pages/discrepancy/effect_titles.h"
-#include "widgets/pages/verify/verify_maps.h"
-#include "widgets/pages/verify/verify_series.h"
+#include "widgets/panels/common/effect_titles.h"
+#include "widgets/panels/verify/verify_maps.h"
+#include "widgets/panels/verify/verify_series.h"
 #include "widgets/plots/plot.h"
 #include "widgets/theme/numbers.h"
 #include "widgets/view3d/view3d.h"
@@ -65,7 +65,7 @@ QString wordOf(VerifyVerdict verdict) {
 
 VerifyPage::VerifyPage(PageContext page_context, QWidget* parent)
     : Page(std::move(page_context), StepId::Verify, parent),
-      options_(context(), option_keys::verify, [this] { refresh(); }) {
+      options_(session(), context().undo, option_keys::verify, [this] { refresh(); }) {
   compare_ = makeButton(tr("Compare before and after"), nullptr, "primary");
   addAction(compare_);
   content()->addWidget(makeChoices());
@@ -109,7 +109,7 @@ VerifyPage::VerifyPage(PageContext page_context, QWidget* parent)
   right->body()->addWidget(stack_, 1);
   content()->addWidget(makeSplitter(left, right, 8, 5), 1);
   showHints(plot_);
-  connect(compare_, &QPushButton::clicked, this, [this] { compare(true); });
+  connect(compare_, &QPushButton::clicked, this, [this] { runAll(); });
   connect(component_, &QComboBox::activated, this, [this](int) {
     showPlot();
     showMaps();
@@ -221,30 +221,11 @@ void VerifyPage::fillChoices() {
 }
 
 void VerifyPage::runAll() {
-  compare(true);
+  if (!optionsJson()["after"].get<std::string>().empty()) runTask("verify");
 }
 
-void VerifyPage::compare(bool store) {
-  const nlohmann::json json = optionsJson();
-  const std::filesystem::path folder = json["after"].get<std::string>();
-  const auto before = session().observations();
-  if (folder.empty() || !before) return;
-  const VerifyRequest request = VerifyOptions::of(*session().session(), session().campaignId()).request;
-  // One campaign may hold both: then what was taken while compensating must not be left out of the second set.
-  const bool same = folder == session().campaign()->folder;
-  const PendingResult pending = session().begin("verify");
-  const ResultWork work = [this, json, folder, request, same, before,
-                           snapshot = session().snapshot()](JobContext& job) -> Worked {
-    const Campaign second = same ? *snapshot.campaign : Campaign::read(folder);
-    const ObservationSet after = allObservationsOf(second, {}, {}, job);
-    auto result = std::make_shared<VerifyResult>(verifyCampaigns(*snapshot.campaign, *before, second, after, request));
-    return {result->json(), [this, result, json] {
-              result_ = result;
-              result_options_ = json;
-            }};
-  };
-  if (store) return run(tr("Comparing before and after"), pending, work);
-  display(tr("Reading the comparison"), work);
+void VerifyPage::take(const TaskGiven& given) {
+  result_ = given.result.as<VerifyResult>();
 }
 
 void VerifyPage::refresh() {
@@ -258,12 +239,12 @@ void VerifyPage::refresh() {
   const nlohmann::json now = optionsJson();
   const bool chosen = !now["after"].get<std::string>().empty();
   const bool measured = session().observations() != nullptr;
-  compare_->setEnabled(chosen && measured);
+  compare_->setEnabled(chosen && measured && canRun("verify"));
   const ResultState state = session().state("verify");
   if (!measured) {
     callout()->set(Tone::Neutral, context().workflow.status(StepId::Verify).sentence);
   } else if (result_ == nullptr && state.current && chosen) {
-    compare(false);
+    showAgain(tr("Reading the comparison"), "verify");
     return;
   } else if (!chosen) {
     callout()->show(Tone::Accent,
@@ -271,7 +252,7 @@ void VerifyPage::refresh() {
                        "again. Then choose that campaign here; its log says compensation_on = 1."));
   } else if (result_ == nullptr) {
     callout()->show(state.there ? Tone::Outdated : Tone::Accent, tr("Press Compare before and after."));
-  } else if (result_options_ != now || !state.current) {
+  } else if (!state.current) {
     callout()->show(Tone::Outdated, tr("Changed since: %1. Compare again.").arg(state.changed));
   } else {
     QString text = coreSentence(result_->reason);

@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "core/workflows/verify_compensation.h"
-#include "widgets/pages/bound_options.h"
+#include "widgets/commands/bound_options.h"
 #include "widgets/pages/page.h"
 
 class QComboBox;
@@ -44,14 +44,13 @@ class VerifyPage : public Page {
   [[nodiscard]] QWidget* makeChoices();
   [[nodiscard]] nlohmann::json optionsJson() const;
   void fillChoices();
-  void compare(bool store);
+  void take(const TaskGiven& given) override;
   void showResult();
   /// Curves and table of the points, of the component that is chosen.
   void showPlot();
   void showMaps();
 
   std::shared_ptr<const VerifyResult> result_;
-  nlohmann::json result_options_;
   std::string loaded_;
 
   QPushButton* compare_;

@@ -13,9 +13,9 @@
 #include "core/base/text.h"
 #include "core/machine/nine_parameter_model.h"
 #include "core/machine/observation.h"
-#include "tests/widgets/pages/page_test.h"
+#include "tests/widgets/support/page_test.h"
+#include "widgets/models/cells.h"
 #include "widgets/models/rows_model.h"
-#include "widgets/pages/common/cells.h"
 #include "widgets/theme/numbers.h"
 #include "widgets/view3d/view3d.h"
 

@@ -5,14 +5,14 @@
 
 #include "core/base/atomic_file.h"
 #include "tests/core/probing/probing_machines.h"
-#include "tests/widgets/pages/page_test.h"
+#include "tests/widgets/support/page_test.h"
 #include "widgets/commands/commands.h"
 #include "widgets/common/parts.h"
 #include "widgets/models/rows_model.h"
 #include "widgets/pages/probing/cycle_model_page.h"
-#include "widgets/pages/probing/reference_panel.h"
 #include "widgets/pages/probing/touch_capture_page.h"
 #include "widgets/pages/probing/touch_evaluation_page.h"
+#include "widgets/panels/probing/reference_panel.h"
 #include "widgets/plots/plot.h"
 #include "widgets/view3d/view3d.h"
 
@@ -105,6 +105,47 @@ TEST_F(ProbingPages, ExcludingATouchMakesResultsOutdatedAndCanBeUndone) {
   press();
   page->selectCycle(QStringLiteral("M2"));
   EXPECT_EQ(cell(*page->touchRows(), bad_, 1), QStringLiteral("rejected"));
+}
+
+/// What the model is made from is worked out first, by the same button, and what holds is not worked out again.
+TEST_F(ProbingPages, TheModelEvaluatesFirstWhatIsOutdated) {
+  openCycles(true);
+  const SessionModel& session = window_->session();
+  const auto kinds = [&] {
+    QStringList stored;
+    for (const StoredResult& r : session.session()->results(session.campaignId())) stored << r.kind.c_str();
+    return stored.join(QLatin1Char(' '));
+  };
+  go<TouchEvaluationPage>(StepId::Calibrate);
+  press();
+  auto* page = go<CycleModelPage>(StepId::Model);
+  ASSERT_NE(page, nullptr);
+  press();
+  EXPECT_EQ(kinds(), QStringLiteral("evaluate fit"));
+  EXPECT_EQ(page->callout()->tone(), Tone::Attention) << "of the bad touch";
+  window_->undoStack().push(new ExcludeCommand(window_->session(), {bad_}, QStringLiteral("bad")));
+  ASSERT_TRUE(waitForJobs(*window_, 10));
+  EXPECT_EQ(window_->workflow().status(StepId::Calibrate).state, StepState::Outdated);
+  EXPECT_EQ(page->callout()->tone(), Tone::Outdated);
+  press();
+  EXPECT_EQ(kinds(), QStringLiteral("evaluate fit evaluate fit"));
+  for (const char* kind : {"evaluate", "fit"}) EXPECT_TRUE(session.state(kind).current) << kind;
+  EXPECT_NE(page->callout()->tone(), Tone::Outdated) << page->callout()->sentence().toStdString();
+  // Cancelled as one.
+  window_->undoStack().undo();
+  ASSERT_TRUE(waitForJobs(*window_, 10));
+  QTest::mouseClick(page->primaryButton(), Qt::LeftButton);
+  window_->jobs().cancelAll();
+  ASSERT_TRUE(waitForJobs(*window_, 60));
+  EXPECT_EQ(kinds(), QStringLiteral("evaluate fit evaluate fit"));
+  // What fails first is the reason why the rest was not run.
+  const std::filesystem::path list = session.campaign()->folder / "captures/touches.csv";
+  writeFileAtomically(list, "time_s,cycle\n0,M0\n");
+  press();
+  EXPECT_EQ(page->callout()->tone(), Tone::Bad);
+  EXPECT_TRUE(page->callout()->sentence().contains(QStringLiteral("touches.csv")))
+      << page->callout()->sentence().toStdString();
+  EXPECT_EQ(kinds(), QStringLiteral("evaluate fit evaluate fit"));
 }
 
 TEST_F(ProbingPages, TheProgrammeIsCheckedBeforeItIsGivenAway) {

@@ -10,11 +10,11 @@
 
 #include "core/base/atomic_file.h"
 #include "core/simulation/virtual_profiler.h"
-#include "tests/widgets/pages/page_test.h"
+#include "tests/widgets/support/page_test.h"
 #include "widgets/common/parts.h"
 #include "widgets/models/rows_model.h"
 #include "widgets/pages/review/review_page.h"
-#include "widgets/pages/review/review_pane.h"
+#include "widgets/panels/review/review_pane.h"
 #include "widgets/plots/plot.h"
 #include "widgets/view3d/view3d.h"
 

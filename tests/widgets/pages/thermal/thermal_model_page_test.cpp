@@ -9,7 +9,7 @@
 #include "core/base/random.h"
 #include "core/base/text.h"
 #include "core/workflows/log_campaign.h"
-#include "tests/widgets/pages/page_test.h"
+#include "tests/widgets/support/page_test.h"
 #include "widgets/common/parts.h"
 #include "widgets/models/rows_model.h"
 #include "widgets/pages/common/message_page.h"

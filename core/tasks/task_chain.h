@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+// What has to be run, one after the other, so that a task is current. What a task is made from is run first, what holds
+// is used again, and each is looked at anew when its turn comes: its inputs may have changed meanwhile.
+//
+//   TaskChain chain("fit");
+//   while (const auto task = chain.next(graph())) { run *task and keep its result; a failure ends the chain }
+#pragma once
+
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/tasks/task_graph.h"
+#include "core/tasks/task_work.h"
+
+namespace spindrift {
+
+class TaskChain {
+ public:
+  /// `anew`: the task itself is run even if its result holds; what it is made from is not.
+  explicit TaskChain(std::string task, bool anew = false) : task_(std::move(task)), anew_(anew) {}
+
+  /// What is to be started now; nothing: the chain is at its end. Throws InputError: blocked, or what was run has
+  /// not become current although nothing changed (its result could not be kept).
+  [[nodiscard]] std::optional<std::string> next(const TaskGraph& graph);
+  [[nodiscard]] const std::string& task() const { return task_; }
+
+ private:
+  std::string task_;
+  bool anew_;
+  std::map<std::string, nlohmann::json> started_;  ///< what each was started with
+};
+
+/// A campaign of a session on which tasks are run without a window. The session has to live as long.
+class CampaignTasks {
+ public:
+  CampaignTasks(Session& session, CampaignState state) : session_(session), state_(std::move(state)) {}
+
+  [[nodiscard]] TaskGraph graph() const { return state_.tasks(session_, ledger_); }
+  [[nodiscard]] const CampaignState& state() const { return state_; }
+  [[nodiscard]] const TaskLedger& ledger() const { return ledger_; }
+  /// Called before each task is prepared.
+  void onStart(std::function<void(const std::string& task)> told) { told_ = std::move(told); }
+  /// Runs what is needed so that the task is current, and keeps every result. Returns what was run, in order. Throws
+  /// InputError: blocked, or why one failed (nothing after it is run); Cancelled. `anew` as in TaskChain.
+  std::vector<std::string> run(const std::string& task, JobContext& job, bool anew = false);
+  /// Takes exclusions as the session holds them now.
+  void readExclusions();
+
+ private:
+  Session& session_;
+  CampaignState state_;
+  TaskLedger ledger_;
+  std::function<void(const std::string&)> told_;
+};
+
+}  // namespace spindrift

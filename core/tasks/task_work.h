@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+// The work behind every task of a campaign: prepared where the session lives, by copying what it needs, and run
+// anywhere. Pages, the command line and the report start the same work, so that what is shown, stored and reported is
+// one. Tasks that are not here belong to a panel of their own (checks of the resolution, the search with a simulator).
+#pragma once
+
+#include <any>
+#include <functional>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "core/machine/campaign.h"
+#include "core/machine/nine_parameter_model.h"
+#include "core/machine/table_polynomial.h"
+#include "core/probing/cycle_studies.h"
+#include "core/probing/evaluate_touches.h"
+#include "core/probing/probe_health.h"
+#include "core/probing/touch_verdict.h"
+#include "core/scanning/scan_evaluation.h"
+#include "core/tasks/campaign_state.h"
+#include "core/tasks/task_graph.h"
+#include "core/workflows/compensator_run.h"
+
+namespace spindrift {
+
+/// What a task reads, besides its options. Shared and never altered.
+struct TaskInputs {
+  std::shared_ptr<const Campaign> campaign;  ///< as at hand, nothing taken out
+  ExcludedItems excluded;
+  std::shared_ptr<const ObservationSet> observations;  ///< to fit (observationsToFit); null: there are none
+  // Read anew where they are null.
+  std::shared_ptr<const TouchList> touches;
+  std::shared_ptr<const TimeSeries> series;  ///< campaignSeries of these observations
+
+  [[nodiscard]] static TaskInputs of(const Session& session, const CampaignState& state);
+};
+
+/// What a task has given: the payload of its result, and what is shown beside it and not stored. The detail of
+///   check             TouchEvaluation (touches)
+///   evaluate          EvaluationDetail
+///   fit               TouchEvaluation (touches), ScanEvaluation (scans), NineParameterResult
+///   thermal           IdentifyResult
+///   compensation      CompensationPlan
+///   log-compensation  LogCompensation
+///   verify            VerifyResult
+struct TaskResult {
+  nlohmann::json payload;
+  std::any detail;  ///< a std::shared_ptr<const T>
+  /// Null if the detail is another, or there is none.
+  template <class T>
+  [[nodiscard]] std::shared_ptr<const T> as() const {
+    const auto* found = std::any_cast<std::shared_ptr<const T>>(&detail);
+    return found == nullptr ? nullptr : *found;
+  }
+};
+
+/// Of touches and of scans, where the campaign has them.
+struct EvaluationDetail {
+  std::shared_ptr<const TouchEvaluation> touches;
+  std::vector<StylusHealth> health;
+  RepeatabilityStudy repeatability;
+  std::shared_ptr<const ScanEvaluation> scans;  ///< under the scan model of machine.json
+};
+
+struct NineParameterResult {
+  NineParameterFit fit;
+  TableOrderChoice order;
+};
+
+struct LogCompensation {
+  CompensatorRun run;
+  ThermalModel model;
+};
+
+/// What is asked of the work: the payload to be stored, the detail to be shown, or both.
+enum class TaskOutput { Payload, Detail, Both };
+
+/// Work that is ready to be run, by any thread. Throws InputError and Cancelled.
+using TaskWork = std::function<TaskResult(JobContext&, TaskOutput)>;
+
+/// Whether the work of a task is here.
+[[nodiscard]] bool hasWork(const std::string& task);
+/// Of the graph's campaign as it is now: to be called together with TaskGraph::origin. Throws InputError: the task has
+/// no work here, or nothing to work on.
+[[nodiscard]] TaskWork prepareTask(const std::string& task, const TaskGraph& graph, const TaskInputs& inputs);
+
+/// The cycles of the first artefact of an evaluation, whatever its kind; null if there are none.
+[[nodiscard]] const CycleEvaluation* cyclesOf(const TouchEvaluation* evaluation);
+/// The verdicts on the touches of all artefacts.
+[[nodiscard]] std::vector<TouchVerdict> allVerdicts(const TouchEvaluation& evaluation);
+
+}  // namespace spindrift

@@ -1,0 +1,437 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "widgets/panels/discrepancy/gap_panel.h"
+
+#include <QComboBox>
+#include <QGridLayout>
+#include <QHBoxLayout>
+#include <QScrollArea>
+#include <QSlider>
+#include <QTimer>
+#include <QVBoxLayout>
+#include <algorithm>
+#include <cmath>
+
+#include "core/reporting/report_wording.h"
+#include "widgets/common/core_sentence.h"
+#include "widgets/common/parts.h"
+#include "widgets/panels/common/effect_titles.h"
+#include "widgets/panels/discrepancy/gap_bars.h"
+#include "widgets/panels/discrepancy/residual_map.h"
+#include "widgets/plots/plot.h"
+#include "widgets/theme/numbers.h"
+#include "widgets/view3d/view3d.h"
+
+namespace spindrift::gui {
+namespace {
+
+/// From this height on plots and views fit below one another.
+constexpr int height_for_both = 500;
+constexpr std::size_t most_single_dots = 300;
+constexpr int side_width = 280;
+
+/// As narrow as its controls allow in the language of the window.
+class SideCard : public Card {
+ public:
+  explicit SideCard(const QString& title) : Card(title) { setSizePolicy(QSizePolicy::Fixed, QSizePolicy::Preferred); }
+  [[nodiscard]] QSize sizeHint() const override {
+    return {std::max(side_width, minimumSizeHint().width()), Card::sizeHint().height()};
+  }
+};
+
+}  // namespace
+
+GapPanel::GapPanel(QWidget* parent) : QWidget(parent) {
+  auto* line = new QHBoxLayout(this);
+  line->setContentsMargins(0, 8, 0, 0);
+  line->setSpacing(4);
+  auto* left = new SideCard(tr("How large the gap is"));
+  // In a low window the bars scroll rather than being squeezed.
+  auto* inside = new QWidget;
+  auto* column = new QVBoxLayout(inside);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->setSpacing(left->body()->spacing());
+  auto* scroll = new QScrollArea;
+  scroll->setWidgetResizable(true);
+  scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  scroll->setWidget(inside);
+  left->body()->addWidget(scroll, 1);
+  bars_ = new GapBars;
+  column->addWidget(bars_);
+  model_ = makeLabel({}, "secondaryText");
+  model_->setWordWrap(true);
+  column->addWidget(model_);
+  column->addStretch(1);
+  left->body()->addWidget(makeLine(Qt::Horizontal));
+  auto* choice = new QHBoxLayout;
+  component_ = new QComboBox;
+  component_->setAccessibleName(tr("Component shown"));
+  point_ = new QComboBox;
+  point_->setAccessibleName(tr("Point shown over time"));
+  choice->addWidget(component_, 1);
+  choice->addWidget(point_, 1);
+  left->body()->addLayout(choice);
+  what_ = new Segments({tr("Over time"), tr("On the machine")}, tr("What is compared"));
+  left->body()->addWidget(what_);
+  story_text_ = makeLabel({}, "secondaryText");
+  story_text_->setWordWrap(true);
+  left->body()->addWidget(story_text_);
+  moment_text_ = makeLabel({}, "secondaryText");
+  left->body()->addWidget(moment_text_);
+  moment_ = new QSlider(Qt::Horizontal);
+  moment_->setAccessibleName(tr("Moment shown on the machine"));
+  moment_->setToolTip(tr("Moment shown on the machine; the arrow keys go from one state to the next"));
+  left->body()->addWidget(moment_);
+  line->addWidget(left);
+
+  grid_ = new QGridLayout;
+  auto* grid = grid_;
+  grid->setSpacing(12);
+  for (int after = 0; after < 2; ++after) {
+    const auto i = static_cast<std::size_t>(after);
+    plot_cards_[i] = new Card(after != 0 ? tr("After, over time") : tr("Before, over time"));
+    plots_[i] = new Plot;
+    plots_[i]->setLegendVisible(false);
+    plot_cards_[i]->body()->addWidget(plots_[i], 1);
+    view_cards_[i] = new Card(after != 0 ? tr("After, on the machine") : tr("Before, on the machine"));
+    views_[i] = new View3D;
+    views_[i]->setMachineVisible(false);
+    views_[i]->setToolSideVisible(false);
+    view_cards_[i]->body()->addWidget(views_[i], 1);
+    grid->addWidget(plot_cards_[i], 0, after);
+    grid->addWidget(view_cards_[i], 1, after);
+    grid->setColumnStretch(after, 1);
+    connect(plots_[i], &Plot::hovered, this, &GapPanel::hovered);
+    connect(views_[i], &View3D::hovered, this, &GapPanel::hovered);
+    connect(views_[i], &View3D::pointPicked, this, [this](const QString& id) {
+      point_->setCurrentText(id);
+      userChose();
+    });
+    plots_[i]->setToolTip(tr("Click a value: the machine is shown at its time"));
+    connect(plots_[i], &Plot::picked, this, [this](double x, int, int) { chooseTime(x / plot_second_); });
+  }
+  plots_[0]->setEmptyText(tr("Measured and simulated"), tr("Search to compare them over time."));
+  plots_[1]->setEmptyText(tr("Nothing has been added yet"),
+                          tr("Press Add to the model: the fit with the effect appears here."));
+  views_[0]->setEmptyText(tr("Measured minus simulated"), tr("Search to see it on the machine."));
+  views_[1]->setEmptyText(tr("Nothing has been added yet"),
+                          tr("Press Add to the model: what remains at each point appears here."));
+  views_[0]->link(views_[1]);
+  line->addLayout(grid, 1);
+  connect(moment_, &QSlider::valueChanged, this, [this](int index) {
+    showViews();
+    markMoment();
+    Q_EMIT timeChosen(moments_s_[static_cast<std::size_t>(index)]);
+  });
+  connect(component_, &QComboBox::activated, this, [this](int) {
+    fillMoments();
+    userChose();
+  });
+  connect(point_, &QComboBox::activated, this, [this](int) { userChose(); });
+  connect(what_, &Segments::chosen, this, [this](int) { arrange(); });
+  arrange();
+}
+
+void GapPanel::showEvent(QShowEvent* event) {
+  QWidget::showEvent(event);
+  if (views_stale_) showViews();
+}
+
+void GapPanel::resizeEvent(QResizeEvent* event) {
+  QWidget::resizeEvent(event);
+  arrange();
+}
+
+void GapPanel::arrange() {
+  const bool both = height() >= height_for_both;
+  what_->setVisible(!both);
+  story_text_->setVisible(both);
+  grid_->setRowStretch(0, both || what_->current() == 0 ? 1 : 0);
+  grid_->setRowStretch(1, both || what_->current() == 1 ? 1 : 0);
+  for (std::size_t i = 0; i < 2; ++i) {
+    plot_cards_[i]->setVisible(both || what_->current() == 0);
+    view_cards_[i]->setVisible(both || what_->current() == 1);
+  }
+}
+
+void GapPanel::fillChoices() {
+  const QString component = component_->currentText();
+  const QString point = point_->currentText();
+  component_->clear();
+  point_->clear();
+  for (const DiscrepancySeries& s : discrepancy_->series) {
+    const QString id = QString::fromStdString(s.point);
+    if (point_->findText(id) < 0) point_->addItem(id);
+    const QString name = componentName(s.component);
+    if (component_->findText(name) < 0) component_->addItem(name, static_cast<int>(s.component));
+  }
+  component_->setCurrentIndex(std::max(0, component_->findText(component)));
+  point_->setCurrentIndex(std::max(0, point_->findText(point)));
+  fillMoments();
+}
+
+void GapPanel::fillMoments() {
+  const auto component = static_cast<Component>(component_->currentData().toInt());
+  moments_s_ = momentsOf(*discrepancy_, component);
+  const QSignalBlocker quiet(moment_);
+  moment_->setVisible(moments_s_.size() > 1);
+  moment_->setRange(0, static_cast<int>(moments_s_.empty() ? 0 : moments_s_.size() - 1));
+  const auto worst = static_cast<int>(worstMoment(*discrepancy_, component));
+  moment_->setValue(worst);
+  largest_ = 0.0;
+  if (moments_s_.empty()) return;
+  const double time_s = moments_s_[static_cast<std::size_t>(worst)];
+  for (const Field::Marker& point : residualsAt(*discrepancy_, component, time_s, false)) {
+    largest_ = std::max(largest_, std::abs(point.value));
+  }
+}
+
+void GapPanel::userChose() {
+  showPlots();
+  showViews();
+  Q_EMIT chosen();
+}
+
+void GapPanel::chooseTime(double time_s) {
+  if (moments_s_.empty()) return;
+  const auto nearest = std::min_element(moments_s_.begin(), moments_s_.end(), [time_s](double a, double b) {
+    return std::abs(a - time_s) < std::abs(b - time_s);
+  });
+  moment_->setValue(static_cast<int>(nearest - moments_s_.begin()));
+}
+
+void GapPanel::markMoment() {
+  for (Plot* plot : plots_) {
+    plot->setMoment(moments_s_.empty()
+                        ? std::nullopt
+                        : std::optional(moments_s_[static_cast<std::size_t>(moment_->value())] * plot_second_));
+  }
+}
+
+std::string GapPanel::point() const {
+  return point_->currentText().toStdString();
+}
+
+Component GapPanel::component() const {
+  return static_cast<Component>(component_->currentData().toInt());
+}
+
+const DiscrepancySeries* GapPanel::series() const {
+  if (discrepancy_ == nullptr || component_->count() == 0) return nullptr;
+  return discrepancy_->find(point_->currentText().toStdString(),
+                            static_cast<Component>(component_->currentData().toInt()));
+}
+
+void GapPanel::show(const std::shared_ptr<const DiscrepancyStory>& story, const MachineDescription* machine) {
+  discrepancy_ = story;
+  machine_ = machine != nullptr ? std::optional<MachineDescription>(*machine) : std::nullopt;
+  if (discrepancy_ == nullptr || machine == nullptr) {
+    bars_->clear();
+    model_->clear();
+    story_text_->clear();
+    component_->clear();
+    point_->clear();
+    for (Plot* plot : plots_) plot->setContent({});
+    for (View3D* view : views_) view->clear();
+    moment_->hide();
+    moment_text_->clear();
+    return;
+  }
+  const std::vector<DiscrepancyReportRow> rows = discrepancy_->reportData().rows;
+  std::array<GapFigures, 2> figures{gapFigures(rows, false), gapFigures(rows, true)};
+  if (discrepancy_->added.empty()) {
+    for (GapFigures& f : figures) f.p2p_after = f.fit_after_percent = std::nan("");
+  }
+  bars_->set(discrepancy_->gap, discrepancy_->has_holdout, figures[0], figures[1]);
+  if (discrepancy_->added.empty()) {
+    model_->setText(discrepancy_->proposed
+                        ? tr("Nothing has been added yet. With what is proposed the rms would fall to %1.")
+                              .arg(sizeText(discrepancy_->proposed->rms_after_um, QStringLiteral("um")))
+                        : tr("Nothing has been added to the simulation."));
+  } else {
+    model_->setText(tr("After: simulation plus %1, fitted jointly.").arg(effectTitles(discrepancy_->added, tr("and"))));
+  }
+  fillChoices();
+  const QString how = discrepancy_->nextProposal() != nullptr
+                          ? tr("Press Add to the model: what then remains appears here.")
+                          : tr("The search proposes no effect to add.");
+  plots_[1]->setEmptyText(tr("Nothing has been added yet"), how);
+  views_[1]->setEmptyText(tr("Nothing has been added yet"), how);
+  for (std::size_t i = 0; i < 2; ++i) {
+    if (i == 1 && discrepancy_->added.empty()) {
+      views_[i]->clear();
+    } else {
+      views_[i]->setMachine(*machine);
+    }
+  }
+  showPlots();
+  showViews();
+}
+
+void GapPanel::choose(const std::string& point, Component component) {
+  if (discrepancy_ == nullptr) return;
+  const int p = point_->findText(QString::fromStdString(point));
+  const int c = component_->findText(componentName(component));
+  if (p < 0 || c < 0) return;
+  const bool other = component_->currentIndex() != c;
+  point_->setCurrentIndex(p);
+  component_->setCurrentIndex(c);
+  if (other) fillMoments();
+  showPlots();
+  showViews();
+}
+
+/// What was taken as noise in the component that is shown.
+void GapPanel::showNoise() {
+  QString noise = tr("Points: measured. Line: model with the free constant of the series, ± 2 σ of the noise.");
+  const Component c = component();
+  const auto found = std::find_if(discrepancy_->noise.begin(), discrepancy_->noise.end(),
+                                  [c](const NoiseEstimate& n) { return n.component == c; });
+  if (found != discrepancy_->noise.end()) {
+    noise += QLatin1Char(' ') + tr("Noise scale of %1: %2 times the stated σ")
+                                    .arg(componentName(c), withError(found->scale, found->scale_uncertainty, {}));
+    if (found->common_um > 0.0) noise += tr(", common shift %1").arg(sizeText(found->common_um, componentUnit(c)));
+    if (found->correlated_part > 0.05) {
+      noise += tr(", %1 % of it correlated over %2")
+                   .arg(decimalText(100 * found->correlated_part, 'f', 0))
+                   .arg(coreSentence(spanOfTime(found->correlation_time_s)));
+    }
+    noise += QLatin1Char('.');
+  }
+  story_text_->setText(noise);
+}
+
+void GapPanel::showPlots() {
+  const DiscrepancySeries* s = series();
+  if (s == nullptr || s->time_s.empty()) {
+    for (Plot* plot : plots_) plot->setContent({});
+    return;
+  }
+  showNoise();
+  const TimeUnit unit = timeUnit(s->time_s.back());
+  plot_second_ = 1.0 / unit.seconds;
+  const QString y_title = QStringLiteral("%1 / %2").arg(componentName(s->component), componentUnit(s->component));
+  double low = 0.0;
+  double high = 0.0;
+  std::array<std::vector<Series>, 2> content;
+  std::vector<Span> spans;
+  double held_from = std::nan("");
+  double held_to = 0.0;
+  for (std::size_t side = 0; side < 2; ++side) {
+    const std::vector<double>& model = side == 0 ? s->simulated : s->completed;
+    if (model.empty()) continue;
+    // The measured values stay where they are; the line takes what the fit makes of the free constant.
+    const double shift = side == 0 ? 0.0 : s->constant_after - s->constant_before;
+    Series measured;
+    measured.name = tr("measured");
+    measured.style = SeriesStyle::Points;
+    measured.colour = 1;
+    Series line;
+    line.name = side == 0 ? tr("simulated") : tr("simulated + added");
+    line.style = SeriesStyle::Line;
+    line.colour = 0;
+    for (std::size_t i = 0; i < s->time_s.size(); ++i) {
+      const double t = s->time_s[i] / unit.seconds;
+      measured.x.push_back(t);
+      measured.y.push_back(s->value[i] - s->constant_before);
+      line.x.push_back(t);
+      line.y.push_back(model[i] + shift);
+      line.sigma.push_back(s->noise);
+      low = std::min({low, measured.y.back(), line.y.back() - 2 * s->noise});
+      high = std::max({high, measured.y.back(), line.y.back() + 2 * s->noise});
+      if (side == 0 && s->held_out[i]) {
+        if (std::isnan(held_from)) held_from = t;
+        held_to = t;
+      }
+    }
+    // Where dots run together the line would vanish below them.
+    if (measured.x.size() <= most_single_dots) {
+      content[side] = {line, measured};
+    } else {
+      content[side] = {measured, line};
+    }
+  }
+  if (!std::isnan(held_from)) spans.push_back({held_from, held_to, tr("held out"), Tone::Accent});
+  for (std::size_t side = 0; side < 2; ++side) {
+    plots_[side]->setAxes(tr("Time / %1").arg(unit.name), y_title);
+    plots_[side]->setRange(std::make_pair(low, high));
+    plots_[side]->setContent(content[side], content[side].empty() ? std::vector<Span>() : spans);
+    const QString point = QString::fromStdString(s->point);
+    plot_cards_[side]->setTitle(
+        side == 0 ? tr("Before: %1 of %2, rms %3")
+                        .arg(componentName(s->component), point, sizeText(s->rms_before, componentUnit(s->component)))
+        : content[1].empty()
+            ? tr("After")
+            : tr("After: %1 of %2, rms %3")
+                  .arg(componentName(s->component), point, sizeText(s->rms_after, componentUnit(s->component))));
+  }
+  markMoment();
+}
+
+void GapPanel::showViews() {
+  views_stale_ = true;
+  if (!isVisible() || discrepancy_ == nullptr || component_->count() == 0 || moments_s_.empty() || !machine_) return;
+  views_stale_ = false;
+  const auto component = static_cast<Component>(component_->currentData().toInt());
+  const QString unit = componentUnit(component);
+  const double time_s = moments_s_[static_cast<std::size_t>(moment_->value())];
+  const TimeUnit time = timeUnit(moments_s_.back());
+  const QString when = tr("%1 %2").arg(decimalText(time_s / time.seconds, 'f', 2)).arg(time.name);
+  moment_text_->setText(tr("On the machine at %1").arg(when));
+  // One scale for both sides and all moments: that of the worst moment before.
+  const ColourScale scale = ColourScale::symmetric(largest_, componentName(component), unit);
+  for (View3D* view : views_) {
+    view->setColourScale(scale);
+    view->setCaption(tr("%1, measured − model at %2").arg(componentName(component), when));
+  }
+  // One thing at each turn of the event loop: points before, points after, then the fields between them.
+  ++views_asked_;
+  showSide(0, component, time_s, false);
+  const auto later = [this, component, time_s, asked = views_asked_](std::size_t side, bool field) {
+    if (asked == views_asked_ && discrepancy_ != nullptr && machine_) showSide(side, component, time_s, field);
+  };
+  QTimer::singleShot(0, this, [this, later] {
+    later(0, true);
+    QTimer::singleShot(0, this, [later] { later(1, true); });
+  });
+}
+
+void GapPanel::showSide(std::size_t side, Component component, double time_s, bool field) {
+  if (side == 1 && discrepancy_->added.empty()) return;
+  std::vector<ViewPoint> points;
+  for (const Field::Marker& marker : residualsAt(*discrepancy_, component, time_s, side == 1)) {
+    ViewPoint p;
+    p.id = p.label = QString::fromStdString(marker.point);
+    p.position_mm = marker.position_mm;
+    p.value = marker.value;
+    if (p.id == point_->currentText()) {
+      p.value_text = tr("%1 ± %2 %3")
+                         .arg(decimalText(marker.value, 'f', 1))
+                         .arg(decimalText(marker.sigma, 'f', 1))
+                         .arg(componentUnit(component));
+    }
+    points.push_back(std::move(p));
+  }
+  views_[side]->setPoints(std::move(points));
+  views_[side]->setSelected(point_->currentText());
+  if (field) {
+    views_[side]->setField(residualMap(*discrepancy_, *machine_, component, time_s, side == 1).field, FieldStyle{});
+  }
+}
+
+std::vector<Exportable> GapPanel::exportables() {
+  std::vector<Exportable> items;
+  if (discrepancy_ == nullptr) return items;
+  items.push_back({tr("Gap rms"), {QStringLiteral("png"), QStringLiteral("svg")}, [this](const QString& file) {
+                     bars_->exportTo(file);
+                   }});
+  const QString name = component_->currentText() + QLatin1Char(' ') + point_->currentText();
+  if (!plots_[0]->empty()) items.push_back(exportableOf(tr("Before %1").arg(name), plots_[0]));
+  if (!plots_[1]->empty()) items.push_back(exportableOf(tr("After %1").arg(name), plots_[1]));
+  items.push_back(exportableOf(tr("Before on the machine %1").arg(component_->currentText()), views_[0]));
+  if (!discrepancy_->added.empty()) {
+    items.push_back(exportableOf(tr("After on the machine %1").arg(component_->currentText()), views_[1]));
+  }
+  return items;
+}
+
+}  // namespace spindrift::gui

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "widgets/panels/thermal/iso_panel.h"
+
+#include <QComboBox>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QLineEdit>
+#include <QSplitter>
+#include <QTableView>
+#include <QVBoxLayout>
+#include <cmath>
+
+#include "core/base/error.h"
+#include "core/machine/sensor_role.h"
+#include "widgets/common/core_sentence.h"
+#include "widgets/common/parts.h"
+#include "widgets/common/words.h"
+#include "widgets/models/cells.h"
+#include "widgets/models/rows_model.h"
+#include "widgets/plots/plot.h"
+#include "widgets/theme/numbers.h"
+
+namespace spindrift::gui {
+
+IsoPanel::IsoPanel(QWidget* parent) : QWidget(parent) {
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(0, 8, 0, 0);
+  auto* line = new QHBoxLayout;
+  test_ = new Segments({tr("Environment (ETVE)"), tr("Rotating spindle")}, tr("Test of ISO 230-3"));
+  line->addWidget(test_);
+  line->addWidget(new QLabel(tr("Ambient")));
+  ambient_ = new QComboBox;
+  ambient_->setAccessibleName(tr("Ambient temperature"));
+  line->addWidget(ambient_, 1);
+  line->addWidget(new QLabel(tr("From:to / s")));
+  range_ = new QLineEdit;
+  range_->setAccessibleName(tr("Seconds of the record that are the test, from:to"));
+  range_->setPlaceholderText(tr("whole record"));
+  line->addWidget(range_, 1);
+  column->addLayout(line);
+  note_ = new Callout;
+  column->addWidget(note_);
+  rows_ = new RowsModel({tr("Component"), tr("Over the test"), tr("Per K, or first hour"), tr("Slope, or time")}, this);
+  plot_ = new Plot;
+  plot_->setAxes(tr("Time / h"), tr("Change / µm or µrad"));
+  plot_->setEmptyText(tr("The test will appear here"), tr("It needs displacements over time."));
+  column->addWidget(makeSplitter(makeTable(rows_, tr("Parameters of ISO 230-3"),
+                                           tr("Range, change and time of each component appear here.")),
+                                 plot_, 5, 6, Qt::Vertical),
+                    1);
+  connect(test_, &Segments::chosen, this, [this](int) { evaluate(); });
+  connect(ambient_, &QComboBox::activated, this, [this](int) { evaluate(); });
+  connect(range_, &QLineEdit::editingFinished, this, [this] { evaluate(); });
+}
+
+void IsoPanel::set(std::shared_ptr<const TimeSeries> series) {
+  if (series == series_) return;
+  series_ = std::move(series);
+  ambient_->clear();
+  ambient_->addItem(tr("none"));
+  if (series_ != nullptr) {
+    for (const Signal& s : series_->signals) {
+      if (s.kind != SignalKind::Temperature) continue;
+      ambient_->addItem(fromCore(s.name));
+      if (readSensorRole(s.name) == SensorRole::Room) ambient_->setCurrentIndex(ambient_->count() - 1);
+    }
+  }
+  evaluate();
+}
+
+void IsoPanel::evaluate() {
+  note_->set(Tone::Neutral, {});
+  rows_->setRows({});
+  plot_->setContent({});
+  ambient_->setEnabled(test_->current() == 0);
+  if (series_ == nullptr) return;
+  Iso230Request request;
+  request.test = test_->current() == 0 ? "etve" : "spindle";
+  if (ambient_->currentIndex() > 0) request.ambient = ambient_->currentText().toStdString();
+  try {
+    const std::string range = range_->text().trimmed().toStdString();
+    if (!range.empty()) request.range = TimeRange::parse(range, "The range of the test");
+    const Iso230Result result = evaluateIso230Test(*series_, request);
+    if (result.etve) showEtve(*result.etve);
+    if (result.spindle) showSpindle(*result.spindle);
+  } catch (const InputError& e) {
+    note_->show(Tone::Attention, coreSentence(e.what()));
+    return;
+  }
+  std::vector<Series> all;
+  for (const Signal& s : series_->signals) {
+    if (s.kind != SignalKind::Displacement || all.size() >= 8) continue;
+    Series curve;
+    curve.name = fromCore(s.name);
+    curve.colour = static_cast<int>(all.size());
+    curve.style = SeriesStyle::Line;
+    double zero = std::nan("");
+    for (std::size_t i = 0; i < s.values.size(); ++i) {
+      if (!std::isfinite(s.values[i])) continue;
+      if (std::isnan(zero)) zero = s.values[i];
+      curve.x.push_back(series_->time_s[i] / 3600);
+      curve.y.push_back(s.values[i] - zero);
+    }
+    all.push_back(std::move(curve));
+  }
+  plot_->setContent(std::move(all));
+}
+
+void IsoPanel::showEtve(const EtveResult& result) {
+  std::vector<Row> rows;
+  for (const EtveComponent& c : result.components) {
+    Row row;
+    row.id = fromCore(c.name);
+    const QString unit = unitText(c.unit);
+    row.cells = {nameCell(row.id), Cell{tr("range %1").arg(quantityText(c.range, c.range_sigma, unit))},
+                 Cell{std::isfinite(c.range_per_K) ? tr("%1 %2/K").arg(decimalText(c.range_per_K, 'g', 3)).arg(unit)
+                                                   : QStringLiteral("–")},
+                 Cell{std::isfinite(c.slope_per_K)
+                          ? tr("slope %1").arg(quantityText(c.slope_per_K, c.slope_sigma, unit + QStringLiteral("/K")))
+                          : QStringLiteral("–")}};
+    rows.push_back(std::move(row));
+  }
+  rows_->setRows(std::move(rows));
+  note_->set(Tone::Neutral, tr("Over %1 h, ambient temperature within %2 K.")
+                                .arg(decimalText(result.duration_s / 3600, 'f', 1))
+                                .arg(decimalText(result.temperature_range_K, 'f', 2)));
+}
+
+void IsoPanel::showSpindle(const SpindleResult& result) {
+  std::vector<Row> rows;
+  for (const SpindleComponent& c : result.components) {
+    Row row;
+    row.id = fromCore(c.name);
+    const QString unit = unitText(c.unit);
+    row.cells = {nameCell(row.id), Cell{tr("at the end %1").arg(quantityText(c.at_end, c.change_sigma, unit))},
+                 Cell{tr("first hour %1").arg(quantityText(c.first_hour, c.change_sigma, unit))},
+                 Cell{std::isfinite(c.time_to_fraction_s) ? tr("%1 % after %2 min")
+                                                                .arg(decimalText(100 * result.fraction, 'f', 0))
+                                                                .arg(decimalText(c.time_to_fraction_s / 60, 'f', 0))
+                                                          : QStringLiteral("–")}};
+    rows.push_back(std::move(row));
+  }
+  rows_->setRows(std::move(rows));
+  note_->set(Tone::Neutral, tr("The spindle ran from %1 h to %2 h.")
+                                .arg(decimalText(result.start_s / 3600, 'f', 2))
+                                .arg(decimalText(result.stop_s / 3600, 'f', 2)));
+}
+
+}  // namespace spindrift::gui

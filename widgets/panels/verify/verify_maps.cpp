@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "widgets/panels/verify/verify_maps.h"
+
+#include <QComboBox>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QSignalBlocker>
+#include <QVBoxLayout>
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/text.h"
+#include "core/machine/interpolated_field.h"
+#include "core/workflows/fit_campaign.h"
+#include "widgets/common/parts.h"
+#include "widgets/common/words.h"
+#include "widgets/models/cells.h"
+#include "widgets/theme/numbers.h"
+#include "widgets/view3d/view3d.h"
+
+namespace spindrift::gui {
+namespace {
+
+constexpr int nodes = 40;
+
+std::optional<Field> mapOf(const std::vector<Field::Marker>& points, const MachineDescription& machine,
+                           Component component) {
+  std::vector<ScatteredValue> values;
+  double z = 0.0;
+  for (const Field::Marker& p : points) {
+    if (!(p.sigma > 0.0)) continue;
+    values.push_back({p.position_mm, p.value, p.sigma});
+    z += p.position_mm.z();
+  }
+  if (!spreadsOverPlane(values)) return std::nullopt;
+  const auto grid = mapTable(machine, z / static_cast<double>(values.size()), nodes);
+  return grid ? std::optional(fieldBetween(component, values, *grid)) : std::nullopt;
+}
+
+}  // namespace
+
+VerifyMap verifyMap(const VerifyResult& result, const MachineDescription& machine, Component component,
+                    const std::string& state) {
+  VerifyMap map;
+  map.component = component;
+  map.state = state;
+  double worst = -1.0;
+  for (const VerifyPoint& p : result.points) {
+    if (!state.empty() || p.component != component || std::abs(p.after) <= worst) continue;
+    worst = std::abs(p.after);
+    map.state = p.state;
+  }
+  for (const VerifyPoint& p : result.points) {
+    if (p.component != component || p.state != map.state) continue;
+    map.points[0].push_back({p.point, p.position_mm, p.before, p.before_sigma, true});
+    map.points[1].push_back({p.point, p.position_mm, p.after, p.after_sigma, true});
+  }
+  for (std::size_t side = 0; side < 2; ++side) map.fields[side] = mapOf(map.points[side], machine, component);
+  return map;
+}
+
+VerifyMaps::VerifyMaps(QWidget* parent) : QWidget(parent) {
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->setSpacing(8);
+  auto* line = new QHBoxLayout;
+  line->addWidget(new QLabel(tr("State")));
+  state_ = new QComboBox;
+  state_->setAccessibleName(tr("Thermal state on the table"));
+  state_->setMinimumWidth(160);
+  line->addWidget(state_);
+  line->addStretch();
+  column->addLayout(line);
+  for (View3D*& view : views_) {
+    view = new View3D;
+    view->setMachineVisible(false);
+    view->setEmptyText(tr("The table will appear here"), tr("Compare before and after."));
+    view->resetCamera(StandardView::Top);
+    column->addWidget(view, 1);
+  }
+  views_[0]->link(views_[1]);
+  connect(state_, &QComboBox::activated, this, [this](int) { Q_EMIT stateChosen(); });
+}
+
+void VerifyMaps::setStates(const QStringList& states) {
+  const QString chosen = state_->currentIndex() > 0 ? state_->currentText() : QString();
+  const QSignalBlocker quiet(state_);
+  state_->clear();
+  state_->addItem(tr("The worst after compensating"));
+  state_->addItems(states);
+  state_->setCurrentIndex(std::max(0, state_->findText(chosen)));
+}
+
+std::string VerifyMaps::state() const {
+  return state_->currentIndex() > 0 ? state_->currentText().toStdString() : std::string();
+}
+
+void VerifyMaps::clear() {
+  for (View3D* view : views_) view->clear();
+}
+
+void VerifyMaps::show(const VerifyMap& map, const MachineDescription& machine, double goal) {
+  double largest = std::max(0.01, goal);
+  for (const auto& side : map.points)
+    for (const Field::Marker& p : side) largest = std::max(largest, std::abs(p.value));
+  const QString name = fromCore(std::string(toString(map.component)));
+  const QString unit = unitText(unitOf(map.component));
+  for (std::size_t side = 0; side < 2; ++side) {
+    View3D* view = views_[side];
+    if (view->empty()) {
+      view->setMachine(machine);
+      view->setMachineVisible(false);
+    }
+    view->setColourScale(ColourScale::symmetric(largest, name, unit));
+    view->setField(map.fields[side] ? std::make_shared<const Field>(*map.fields[side]) : nullptr);
+    std::vector<ViewPoint> points;
+    for (const Field::Marker& p : map.points[side]) {
+      ViewPoint v;
+      v.id = v.label = fromCore(p.point);
+      v.position_mm = p.position_mm;
+      v.value = p.value;
+      v.value_text = shownNumbers(fromCore(withUncertainty(p.value, p.sigma, unitOf(map.component))));
+      points.push_back(std::move(v));
+    }
+    view->setPoints(std::move(points));
+    view->setCaption((side == 0 ? tr("Before: %1 in %2") : tr("After: %1 in %2")).arg(name, fromCore(map.state)));
+  }
+}
+
+}  // namespace spindrift::gui

@@ -1,0 +1,385 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "widgets/services/incoming_service.h"
+
+#include <QDateTime>
+#include <QDir>
+#include <QFileInfo>
+
+#include "core/base/error.h"
+#include "core/imaging/image.h"
+#include "widgets/common/core_sentence.h"
+#include "widgets/image_view/decode_marks.h"
+#include "widgets/models/cells.h"
+
+namespace spindrift::gui {
+namespace {
+
+/// As many as the list of what arrives shows.
+constexpr std::size_t most_pictures = 1000;
+
+/// A small picture for the list; empty for what is no image.
+QImage smallPicture(const std::filesystem::path& file, IncomingKind kind) {
+  if (kind != IncomingKind::Image) return {};
+  try {
+    return toImage(readImage(file)).scaled(128, 72, Qt::KeepAspectRatio, Qt::SmoothTransformation);
+  } catch (const InputError&) {
+    return {};
+  }
+}
+
+}  // namespace
+
+IncomingService::IncomingService(SessionModel& session) : QObject(&session), session_(session) {
+  clock_.start();
+  timer_.setInterval(500);
+  connect(&timer_, &QTimer::timeout, this, &IncomingService::look);
+  connect(&session_, &SessionModel::campaignChanged, this, &IncomingService::follow);
+  follow();  // the campaign may be there already
+}
+
+IncomingService& IncomingService::of(SessionModel& session) {
+  auto* found = session.findChild<IncomingService*>(QString(), Qt::FindDirectChildrenOnly);
+  return found != nullptr ? *found : *new IncomingService(session);
+}
+
+void IncomingService::setPace(int look_ms, double settle_s, double patience_s) {
+  timer_.setInterval(look_ms);
+  watch_.settle_s = settle_s;
+  patience_s_ = patience_s;
+}
+
+std::string IncomingService::key(const char* what) const {
+  return std::string(what) + "/" + std::to_string(session_.campaignId());
+}
+
+/// Forgets what belongs to another campaign. What had arrived of it lies in its folder.
+void IncomingService::follow() {
+  const std::string folder = session_.campaign() == nullptr ? std::string() : session_.campaign()->folder.string();
+  if (folder == campaign_folder_) return;
+  campaign_folder_ = folder;
+  campaign_ = session_.campaignId();
+  timer_.stop();
+  jobs_.cancelAll();
+  examining_ = false;
+  folder_.reset();
+  thumbnails_.clear();
+  pictured_.clear();
+  failure_.clear();
+  plan_.reset();
+  const bool there = session_.session() != nullptr && session_.campaign() != nullptr;
+  intake_ = there ? CaptureIntake(incomingJournal(*session_.session(), campaign_)) : CaptureIntake();
+  Q_EMIT changed();
+  Q_EMIT planProgressed();
+}
+
+QString IncomingService::folder() const {
+  if (folder_ != nullptr) return QString::fromStdString(folder_->folder().string());
+  const nlohmann::json last = session_.setting(key("watched"), nlohmann::json::object());
+  return fromCore(last.is_object() ? last.value("folder", "") : "");
+}
+
+QString IncomingService::templateFile() const {
+  const nlohmann::json last = session_.setting(key("watched"), nlohmann::json::object());
+  return fromCore(last.is_object() ? last.value("template", "") : "");
+}
+
+QString IncomingService::start(const QString& folder, const QString& template_file) {
+  follow();
+  if (session_.campaign() == nullptr) return tr("Open a session or a new measurement first.");
+  const QFileInfo info(folder);
+  if (folder.isEmpty() || !info.isDir()) {
+    return tr("\"%1\" is not a folder; allowed: the folder into which the instrument writes.").arg(folder);
+  }
+  if (CaptureIntake::liesInside(folder.toStdString(), session_.folder())) {
+    return tr("This folder belongs to the session itself; allowed: the folder into which the instrument writes.");
+  }
+  try {
+    std::optional<JsonNode> pattern;
+    if (!template_file.isEmpty()) {
+      pattern = JsonNode::read(template_file.toStdString());
+      pattern->requireFormat("spindrift-printed-text", 1);
+    }
+    intake_.expectTouches(*session_.campaign(), std::move(pattern));
+  } catch (const InputError& e) {
+    return coreSentence(e.what());
+  }
+  failure_.clear();
+  folder_ = std::make_unique<IncomingFolder>(QDir(folder).absolutePath().toStdString(), watch_, patience_s_);
+  session_.setSetting(key("watched"), {{"folder", folder.toStdString()}, {"template", template_file.toStdString()}});
+  timer_.start();
+  look();
+  Q_EMIT changed();
+  return {};
+}
+
+void IncomingService::stop() {
+  timer_.stop();
+  flushTouches(true);
+  folder_.reset();
+  Q_EMIT changed();
+}
+
+QString IncomingService::problem() const {
+  if (!failure_.isEmpty()) return failure_;
+  if (folder_ != nullptr && !folder_->problem().empty()) return coreSentence(folder_->problem());
+  if (touches() != nullptr) {
+    const std::vector<std::string> problems = touches()->problems();
+    if (!problems.empty()) return coreSentence(problems.back());
+  }
+  return {};
+}
+
+bool IncomingService::idle() const {
+  return !examining_ && !jobs_.busy() && (folder_ == nullptr || folder_->idle());
+}
+
+QImage IncomingService::thumbnail(const std::string& name) const {
+  const auto found = thumbnails_.find(name);
+  return found == thumbnails_.end() ? QImage() : found->second;
+}
+
+QStringList IncomingService::retakes() {
+  QStringList sentences;
+  for (const CaptureIntake::Retake& retake : intake_.retakes(done())) {
+    sentences << (retake.what.empty() ? coreSentence(retake.why)
+                                      : tr("Take %1 again: %2").arg(fromCore(retake.what), coreSentence(retake.why)));
+  }
+  return sentences;
+}
+
+std::shared_ptr<const IncomingContext> IncomingService::contextNow() {
+  if (generation_ != session_.captureGeneration()) {
+    // Others added captures.
+    generation_ = session_.captureGeneration();
+    intake_.forgetContext();
+  }
+  return intake_.context(*session_.campaign(), plan());
+}
+
+void IncomingService::look() {
+  if (folder_ == nullptr || session_.session() == nullptr) return;
+  const QString before = problem();
+  const bool news = folder_->look(now());
+  for (const std::size_t i : folder_->waiting()) intake_.show(folder_->items()[i]);
+  if (news || before != problem()) Q_EMIT changed();
+  examineNext();
+}
+
+void IncomingService::examineNext() {
+  if (examining_ || folder_ == nullptr || session_.campaign() == nullptr) return;
+  const auto task = folder_->next();
+  if (!task) return;
+  examining_ = true;
+  Job job;
+  job.title = tr("Checking %1").arg(fromCore(task->name));
+  job.quiet = true;
+  job.work = [this, task = *task, context = contextNow(), folder = campaign_folder_](JobContext&) {
+    auto examined =
+        std::make_shared<ExaminedFile>(examineArrival(task.file.file, task.name, task.file.written_ns, *context));
+    const QImage picture = smallPicture(task.file.file, examined->item.kind);
+    return std::function<void()>([this, task, examined, picture, folder] {
+      if (folder == campaign_folder_) finished(task, std::move(*examined), picture);
+    });
+  };
+  job.failed = [this](const QString& sentence) {
+    examining_ = false;
+    failure_ = sentence;
+    Q_EMIT changed();
+  };
+  job.cancelled = [this] { examining_ = false; };
+  jobs_.run(std::move(job));
+}
+
+void IncomingService::finished(const IncomingFolder::Task& task, ExaminedFile examined, const QImage& picture) {
+  examining_ = false;
+  if (folder_ == nullptr) return;
+  keepPicture(task.name, picture);
+  const ExaminedFile kept = examined;
+  if (kept.item.kind == IncomingKind::Touches) {
+    feed(kept);
+    examined.item.sentence = intake_.touchSentence();
+  }
+  const IncomingItem& item = folder_->finish(task, std::move(examined), now());
+  const IncomingItem shown = intake_.show(item);
+  if (item.state != IncomingState::Waiting) {
+    ExaminedFile answer = kept;
+    answer.item = shown;
+    record(answer);
+  }
+  Q_EMIT changed();
+  examineNext();
+}
+
+void IncomingService::keepPicture(const std::string& name, const QImage& picture) {
+  if (picture.isNull()) return;
+  if (!thumbnails_.insert_or_assign(name, picture).second) return;
+  pictured_.push_back(name);
+  if (pictured_.size() <= most_pictures) return;
+  thumbnails_.erase(pictured_.front());
+  pictured_.pop_front();
+}
+
+void IncomingService::record(const ExaminedFile& found) {
+  ExaminedFile examined = found;
+  if (!examined.row.empty() && done().contains(examined.item.plan_item)) {
+    // Another one was faster: two pictures taken at once.
+    examined.row.clear();
+    examined.item.state = IncomingState::Twice;
+    examined.item.sentence =
+        tr("%1 is there already; this one is kept aside.").arg(fromCore(examined.item.plan_item)).toStdString();
+    intake_.show(examined.item);
+  }
+  try {
+    // What is told of it in between must not take this capture for one of others.
+    if (!examined.row.empty()) ++generation_;
+    session_.recordArrival(examined);
+    failure_.clear();
+  } catch (const InputError& e) {
+    failure_ = coreSentence(e.what());
+    return;
+  }
+  intake_.remember(examined);
+  if (!examined.row.empty()) Q_EMIT planProgressed();
+}
+
+void IncomingService::feed(const ExaminedFile& examined) {
+  try {
+    if (intake_.takeTouches(examined) > 0) {
+      flushTouches(false);
+      Q_EMIT touchesChanged();
+    }
+  } catch (const InputError& e) {
+    failure_ = coreSentence(e.what());
+  }
+}
+
+void IncomingService::flushTouches(bool all) {
+  try {
+    const std::vector<Touch> touches = intake_.takeFinished(all);
+    if (touches.empty()) return;
+    ++generation_;
+    session_.addCaptureRows("touches.csv", TouchFeed::header(), TouchFeed::rowsOf(touches));
+    intake_.remember(touches);
+    Q_EMIT planProgressed();
+  } catch (const InputError& e) {
+    failure_ = coreSentence(e.what());
+  }
+}
+
+void IncomingService::take(const QString& name, std::shared_ptr<const GrayImage> image) {
+  follow();
+  if (session_.campaign() == nullptr || image == nullptr) return;
+  // A number that no picture has, of those before a restart either.
+  std::string id;
+  do {
+    id = QStringLiteral("%1 %2").arg(name).arg(++pictures_).toStdString();
+  } while (intake_.knows(id));
+  const std::int64_t written_ns = QDateTime::currentMSecsSinceEpoch() * 1'000'000;
+  Job job;
+  job.title = tr("Checking the picture");
+  job.quiet = true;
+  job.work = [this, id, image, written_ns, context = contextNow(), folder = campaign_folder_](JobContext&) {
+    auto examined = std::make_shared<ExaminedFile>(examineImage(encodePng(*image), id, written_ns, *context));
+    const QImage picture = toImage(*image).scaled(128, 72, Qt::KeepAspectRatio, Qt::SmoothTransformation);
+    return std::function<void()>([this, id, examined, picture, folder] {
+      if (folder != campaign_folder_) return;
+      keepPicture(id, picture);
+      intake_.show(examined->item);
+      record(*examined);
+      Q_EMIT changed();
+    });
+  };
+  job.failed = [this](const QString& sentence) {
+    failure_ = sentence;
+    Q_EMIT changed();
+  };
+  jobs_.run(std::move(job));
+}
+
+void IncomingService::takeFiles(const QStringList& files, std::function<void(const std::vector<IncomingItem>&)> done) {
+  follow();
+  if (session_.campaign() != nullptr) takeNext(files, {}, std::move(done));
+}
+
+/// One after the other: each is held against those before it.
+void IncomingService::takeNext(QStringList files, std::vector<IncomingItem> taken,
+                               std::function<void(const std::vector<IncomingItem>&)> done) {
+  if (files.isEmpty()) {
+    done(taken);
+    return;
+  }
+  const QFileInfo file(files.takeFirst());
+  const auto next = [this, files, done, folder = campaign_folder_](std::vector<IncomingItem> so_far) {
+    if (folder == campaign_folder_) takeNext(files, std::move(so_far), done);
+  };
+  Job job;
+  job.title = tr("Checking %1").arg(file.fileName());
+  job.quiet = true;
+  job.work = [this, next, taken, path = std::filesystem::path(file.absoluteFilePath().toStdString()),
+              name = file.fileName().toStdString(), written_ns = file.lastModified().toMSecsSinceEpoch() * 1'000'000,
+              context = contextNow(), folder = campaign_folder_](JobContext&) {
+    auto examined = std::make_shared<ExaminedFile>(examineArrival(path, name, written_ns, *context));
+    const QImage picture = smallPicture(path, examined->item.kind);
+    return std::function<void()>([this, next, taken, examined, picture, folder] {
+      if (folder != campaign_folder_) return;
+      keepPicture(examined->item.name, picture);
+      ExaminedFile answer = *examined;
+      answer.item = intake_.show(examined->item);
+      record(answer);
+      std::vector<IncomingItem> all = taken;
+      all.push_back(examined->item);  // "there already", where the list keeps its first answer
+      Q_EMIT changed();
+      next(std::move(all));
+    });
+  };
+  job.failed = [this, next, taken, name = file.fileName().toStdString()](const QString& sentence) {
+    std::vector<IncomingItem> all = taken;
+    IncomingItem failed;
+    failed.name = name;
+    failed.state = IncomingState::Ignored;
+    failed.sentence = sentence.toStdString();
+    all.push_back(failed);
+    next(std::move(all));
+  };
+  jobs_.run(std::move(job));
+}
+
+const MeasurementPlan& IncomingService::plan() {
+  if (!plan_) {
+    plan_.emplace();
+    try {
+      if (session_.session() != nullptr) plan_ = storedPlan(*session_.session(), session_.campaignId());
+    } catch (const InputError& e) {
+      failure_ = coreSentence(e.what());
+    }
+  }
+  return *plan_;
+}
+
+const PlanCaptures& IncomingService::captures() {
+  static const PlanCaptures none;
+  return session_.campaign() == nullptr ? none : contextNow()->captures();
+}
+
+const std::set<std::string>& IncomingService::done() {
+  return captures().done;
+}
+
+double IncomingService::campaignTime() const {
+  if (session_.campaign() == nullptr) return 0.0;
+  const QDateTime start = QDateTime::fromString(fromCore(session_.campaign()->start_utc), Qt::ISODate);
+  return 1e-3 * static_cast<double>(start.msecsTo(QDateTime::currentDateTimeUtc()));
+}
+
+PlanProgress IncomingService::progress() {
+  const PlanCaptures& there = captures();
+  return progressOf(plan(), there.done, campaignTime(), there.begun);
+}
+
+void IncomingService::planChanged() {
+  plan_.reset();
+  intake_.forgetContext();
+  Q_EMIT planProgressed();
+}
+
+}  // namespace spindrift::gui
