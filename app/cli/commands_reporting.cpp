@@ -10,6 +10,7 @@
 #include "core/base/atomic_file.h"
 #include "core/base/error.h"
 #include "core/base/json_reader.h"
+#include "core/workflows/file_reference.h"
 #include "core/workflows/log_campaign.h"
 #include "core/workflows/manual.h"
 #include "core/workflows/report_workflow.h"
@@ -66,6 +67,24 @@ CommandResult writeReport(const Report& report, const std::string& file, JobCont
   const std::string bytes = isPdf(file) ? pdfOf(report, job).bytes : htmlOf(report);
   writeFileAtomically(file, bytes);
   return {{{"report", file}, {"bytes", bytes.size()}}, fmt::format("report written to {}\n", file), Done};
+}
+
+CommandResult listFiles(const std::string& id) {
+  CommandResult result;
+  result.summary = filesMarkdown(id);
+  for (const FileFormat& format : fileFormats()) {
+    if (!id.empty() && id != format.id) continue;
+    nlohmann::json keys = nlohmann::json::array();
+    for (const FileKey& key : format.keys)
+      keys.push_back({{"path", key.path},
+                      {"unit", key.unit},
+                      {"without", key.without},
+                      {"allowed", key.allowed},
+                      {"meaning", key.meaning}});
+    result.json["files"].push_back(
+        {{"id", format.id}, {"file", format.file}, {"format", format.format}, {"keys", std::move(keys)}});
+  }
+  return result;
 }
 
 /// Of a session: the report that the window would write, filed where the window files it; a copy at --out.
@@ -132,6 +151,12 @@ void addReportingCommands(CLI::App& app, CommandLine& line) {
       ->add_option("--out", *manual_file, "File to write, by its ending .html or .pdf")
       ->required()
       ->type_name("FILE");
+  auto file = std::make_shared<std::string>();
+  addCommand(app, line, "files",
+             "Print every file that is read or written with its keys and columns: unit, default, allowed values, "
+             "meaning (Markdown)",
+             [file](JobContext&) { return listFiles(*file); })
+      ->add_option("FILE", *file, "One of them, such as machine or scenario (without it: all)");
 }
 
 }  // namespace spindrift::cli

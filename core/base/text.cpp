@@ -49,9 +49,28 @@ std::string withUncertainty(double value, double standard_uncertainty, std::stri
 
 std::string pValueText(double p_value) {
   if (!std::isfinite(p_value)) return "p not determined";
-  if (p_value < 1e-12) return "p < 1e-12";
-  if (p_value < 1e-3) return fmt::format("p = {:.0e}", p_value);
-  return fmt::format("p = {:.2g}", p_value);
+  const std::string text = probabilityText(p_value);
+  return (text.starts_with('<') ? "p " : "p = ") + text;
+}
+
+std::string probabilityText(double p) {
+  constexpr const char* digits[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
+  constexpr int smallest = 12;  // what a model of the noise says beyond it is nothing
+  const auto powerOfTen = [&](int exponent) {
+    std::string text = "10⁻";
+    for (const char digit : std::to_string(exponent)) text += digits[digit - '0'];
+    return text;
+  };
+  if (!std::isfinite(p)) return "–";
+  if (p < std::pow(10.0, -smallest)) return "< " + powerOfTen(smallest);
+  if (p >= 0.001) return fmt::format("{:.2g}", p);
+  int exponent = -static_cast<int>(std::floor(std::log10(p)));
+  double digit = std::round(p * std::pow(10.0, exponent));
+  if (digit >= 10.0) {  // 9.7e-4 is 1 × 10⁻³
+    digit = 1.0;
+    --exponent;
+  }
+  return fmt::format("{:.0f} × {}", digit, powerOfTen(exponent));
 }
 
 std::string exactNumber(double value) {

@@ -13,8 +13,11 @@ namespace spindrift {
 /// minus sign. Without a usable uncertainty (not finite or <= 0): six significant digits of the value alone.
 [[nodiscard]] std::string withUncertainty(double value, double standard_uncertainty, std::string_view unit);
 
-/// "p = 0.51", "p = 6e-04", and "p < 1e-12" where the model of the noise says no more than that.
+/// "p = 0.51", "p = 6 × 10⁻⁴", and "p < 10⁻¹²" where the model of the noise says no more than that.
 [[nodiscard]] std::string pValueText(double p_value);
+
+/// The same without its name: "0.004", "3 × 10⁻⁵", "< 10⁻¹²"; a dash where it is not finite.
+[[nodiscard]] std::string probabilityText(double p);
 
 /// A number for a file: shortest text that reads back to the same double, C locale.
 [[nodiscard]] std::string exactNumber(double value);

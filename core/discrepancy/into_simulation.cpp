@@ -249,7 +249,7 @@ std::string updateSentence(const SimulationUpdate& update) {
   std::vector<std::string> put;
   for (const FittedSimulatorParameter& p : update.parameters) {
     if (!p.put_in || p.no_influence) continue;
-    put.push_back(fmt::format("{} = {} (was {})", p.parameter.name,
+    put.push_back(fmt::format("{} = {}, before {}", p.parameter.name,
                               withUncertainty(p.value, p.standard_uncertainty, p.parameter.printedUnit()),
                               withUncertainty(p.parameter.value, 0.0, "")));
   }

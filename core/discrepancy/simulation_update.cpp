@@ -124,7 +124,7 @@ std::string SimulationUpdate::summary() const {
   std::string text = "into the simulation: " + message + "\n";
   for (const FittedSimulatorParameter& p : parameters) {
     if (p.no_influence) continue;
-    text += fmt::format("  {:<14} {}  (was {:g}{})\n", p.parameter.name,
+    text += fmt::format("  {:<14} {}  (before {:g}{})\n", p.parameter.name,
                         withUncertainty(p.value, p.standard_uncertainty, p.parameter.printedUnit()), p.parameter.value,
                         p.put_in ? ", put in" : "");
   }

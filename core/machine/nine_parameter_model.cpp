@@ -34,7 +34,9 @@ std::vector<std::string> symbolsOf(const std::vector<int>& parameters) {
   std::vector<std::string> symbols;
   for (const int i : parameters) {
     const std::string_view name = nine_parameter_names[static_cast<std::size_t>(i)];
-    symbols.emplace_back(name.substr(0, std::min(name.find("_um"), name.find("_urad"))));
+    std::string symbol(name.substr(0, std::min(name.find("_um"), name.find("_urad"))));
+    if (symbol.starts_with("alpha_")) symbol.replace(0, std::string_view("alpha_").size(), "α");
+    symbols.push_back(std::move(symbol));
   }
   return symbols;
 }

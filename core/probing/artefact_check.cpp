@@ -187,12 +187,13 @@ std::vector<ArtefactFinding> checkArtefact(const nlohmann::json& artefact, const
   } else {
     checkBalls(artefact, check);
   }
-  const auto expansion = check.optional("expansion_um_per_m_K", "The expansion coefficient", -5.0, 100.0, "um/m/K");
+  const auto expansion = check.optional("expansion_um_per_m_K", "The expansion coefficient", -5.0, 100.0, "um/(m·K)");
   if (expansion && *expansion != 0.0 && std::abs(*expansion) < 0.05) {
-    check.add("expansion_um_per_m_K", -1, -1,
-              fmt::format("An expansion of {:g} µm/m/K is below that of any glass ceramic. Steel has 11.5, Invar 1.2.",
-                          *expansion),
-              false);
+    check.add(
+        "expansion_um_per_m_K", -1, -1,
+        fmt::format("An expansion of {:g} µm/(m·K) is below that of any glass ceramic. Steel has 11.5, Invar 1.2.",
+                    *expansion),
+        false);
   }
   (void)check.optional("temperature_degC", "The temperature of the artefact", -20.0, 80.0, "degC");
   const auto certificate =

@@ -494,7 +494,7 @@ void addDiscrepancyStory(Report& document, const DiscrepancyReportData& result, 
       rows.push_back({std::string(toString(place.component)), shortenedList(place.points, 12),
                       fmt::format("{:.1f} to {:.1f}", place.from_s / seconds_per_hour, place.to_s / seconds_per_hour),
                       place.condition, fmt::format("{:.2f} {}", place.excess_um, printedUnitOf(place.component)),
-                      probabilityInWords(place.p_value)});
+                      probabilityText(place.p_value)});
     }
     document.table({"Component", "Points", "Time / h", "Condition", "Beyond the noise", "p"}, rows,
                    "Where measured and simulated disagree; p: probability of so much by chance, for all places looked "

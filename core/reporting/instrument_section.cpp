@@ -196,7 +196,7 @@ void addAlgebraicCircles(Report& document, const nlohmann::json& details) {
   document.table({"Fiducial", "State", "Joint x / px", "Circles − joint x / µm", "Joint y / px",
                   "Circles − joint y / µm", "Tracks"},
                  rows,
-                 "Centre of rotation: algebraic circles through the track of each mark (P0 (6)-(9)) against the joint "
+                 "Centre of rotation: algebraic circles through the track of each mark against the joint "
                  "evaluation; short arcs pull the circles, they are shown for comparison and not used");
 }
 
@@ -232,10 +232,9 @@ void addClosedForms(Report& document, const nlohmann::json& artefact) {
   }
   document.table(
       {"Ball", "Closed forms X, Y, Z / µrad", "Joint evaluation X, Y, Z / µrad", "Movement of stylus 0 / µm"}, rows,
-      fmt::format(
-          "Head rotation in {}: P4 (7)-(10) as printed against the joint evaluation; the closed forms take every "
-          "translation for a rotation and are shown for comparison only",
-          last));
+      fmt::format("Head rotation in {}: closed forms against the joint evaluation; the closed forms take every "
+                  "translation for a rotation and are shown for comparison only",
+                  last));
 }
 
 /// Lengths that are known: slope of the axis against the certificate, and the growth that coefficient and temperature

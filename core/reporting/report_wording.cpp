@@ -60,13 +60,6 @@ std::string_view unitInName(std::string_view word) {
   return {};
 }
 
-std::string superscript(int number) {
-  static constexpr std::array<std::string_view, 10> digits{"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
-  std::string text = number < 0 ? "⁻" : "";
-  for (const char c : std::to_string(std::abs(number))) text += digits[static_cast<std::size_t>(c - '0')];
-  return text;
-}
-
 std::string capital(std::string text) {
   if (!text.empty()) text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
   return text;
@@ -193,6 +186,10 @@ std::string driversInWords(std::string_view drivers) {
       out += "speed " + axisOf(name.substr(6));
     } else if (name.starts_with("T_") && name.ends_with("_degC")) {
       out += "temperature of " + signalTitle(name).name;
+    } else if (name == "column_difference") {
+      out += "temperature difference of the column, front minus rear";
+    } else if (name == "column_side_difference") {
+      out += "temperature difference of the column, left minus right";
     } else {
       out += signalTitle(name).name;
     }
@@ -215,19 +212,6 @@ std::string spanOfTime(double seconds) {
 std::string utcInWords(std::string_view utc) {
   if (utc.size() != 20 || utc[10] != 'T' || utc[19] != 'Z') return std::string(utc);
   return fmt::format("{} {} UTC", utc.substr(0, 10), utc.substr(11, 5));
-}
-
-std::string probabilityInWords(double p) {
-  if (!std::isfinite(p)) return "–";
-  if (p < 1e-12) return "< 10" + superscript(-12);
-  if (p >= 0.001) return fmt::format("{:.2g}", p);
-  int exponent = static_cast<int>(std::floor(std::log10(p)));
-  double digit = std::round(p / std::pow(10.0, exponent));
-  if (digit >= 10.0) {  // 9.7e-4 is 1 × 10⁻³
-    digit = 1.0;
-    ++exponent;
-  }
-  return fmt::format("{:.0f} × 10", digit) + superscript(exponent);
 }
 
 std::string words(std::string_view key) {

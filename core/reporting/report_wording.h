@@ -42,9 +42,6 @@ struct SignalTitle {
 /// "2026-03-02T07:00:00Z" -> "2026-03-02 07:00 UTC"; another text stays.
 [[nodiscard]] std::string utcInWords(std::string_view utc);
 
-/// "0.004", "3 × 10⁻⁵", "< 10⁻¹²".
-[[nodiscard]] std::string probabilityInWords(double p);
-
 /// "ball_screw" -> "ball screw".
 [[nodiscard]] std::string words(std::string_view key);
 

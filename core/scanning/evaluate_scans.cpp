@@ -149,7 +149,7 @@ InstrumentEvaluation evaluateScans(const Campaign& campaign, const std::string& 
     artefacts.insert(s.capture.artefact);
   }
   out.summary = fmt::format("Profiler ({}): {} scans of {} artefacts compared with their first, {} rejected\n",
-                            toString(evaluation.scan_model), compared, artefacts.size(), out.rejected.size());
+                            printedName(evaluation.scan_model), compared, artefacts.size(), out.rejected.size());
   constexpr std::size_t most_lines = 24;
   std::size_t lines = 0;
   for (const ScanResult& s : evaluation.scans) {

@@ -177,6 +177,13 @@ void CalibrationOptions::validate() const {
     throw InputError("The uncertainties of the pocket must be positive (mm).");
 }
 
+std::string mountingInWords(std::string_view key) {
+  if (key == "alpha_rad") return "α about X";
+  if (key == "beta_rad") return "β about Y";
+  if (key == "gamma_rad") return "γ about Z";
+  return std::string(key.substr(0, key.find('_')));
+}
+
 Eigen::Matrix3d ProfilerCalibration::rotation() const {
   return RigidTransform::fromAlphaBetaGamma(alpha_rad, beta_rad, gamma_rad, Eigen::Vector3d::Zero()).rotation();
 }
@@ -342,14 +349,14 @@ ProfilerCalibration calibrateProfiler(const PointCloud& scan, const std::array<d
           "{} cannot be determined under the scan model {} ({}): {:.4f} rad is what the mounting is assumed to have, "
           "with a standard "
           "uncertainty of {:.3f} rad that dx, dy carry along. ",
-          names[static_cast<std::size_t>(i)], toString(options.scan_model),
+          mountingInWords(names[static_cast<std::size_t>(i)]), printedName(options.scan_model),
           options.scan_model == ScanModel::Rigid ? "a circle is invariant under rotation about its axis"
                                                  : "the height of a point does not depend on where the carriage stands",
           std::abs(q[i]) < 5e-5 ? 0.0 : q[i], result.standardUncertainty(i));
     }
   if (std::abs(result.unexplained_slope_rad) > 1e-3)
     result.message += fmt::format(
-        "The plate rises by {:.2f} mrad along the scan, which the scan model push_broom cannot explain: the "
+        "The plate rises by {:.2f} mrad along the scan, which the scan model push broom cannot explain: the "
         "plate is not level, or the scan is rigid. ",
         1e3 * result.unexplained_slope_rad);
   while (!result.message.empty() && result.message.back() == ' ') result.message.pop_back();

@@ -74,6 +74,9 @@ struct ProfilerCalibration {
   [[nodiscard]] double standardUncertainty(int i) const { return std::sqrt(covariance(i, i)); }
 };
 
+/// An angle or shift of the profiler for sentences: "alpha_rad" -> "α about X", "dx_mm" -> "dx".
+[[nodiscard]] std::string mountingInWords(std::string_view key);
+
 /// circle_mm = (X0, Y0, Z0, r) in the tool frame. Throws InputError for a cloud without profiles or a circle that makes
 /// no sense; a scan without a pocket gives a status with its reason.
 [[nodiscard]] ProfilerCalibration calibrateProfiler(const PointCloud& scan, const std::array<double, 4>& circle_mm,

@@ -153,6 +153,10 @@ std::string_view toString(ScanModel model) noexcept {
   return model == ScanModel::Rigid ? "rigid" : "push_broom";
 }
 
+std::string_view printedName(ScanModel model) noexcept {
+  return model == ScanModel::Rigid ? "rigid" : "push broom";
+}
+
 void RegistrationOptions::validate() const {
   if (most_iterations < 1) throw InputError("The registration needs at least one iteration.");
   if (!(tukey_threshold > 2.0)) throw InputError("Tukey's threshold must be above 2 standard deviations.");

@@ -37,6 +37,8 @@ enum class ScanModel { Rigid, PushBroom };
 /// "rigid" or "push_broom"; throws InputError for anything else.
 [[nodiscard]] ScanModel scanModelFromString(std::string_view name);
 [[nodiscard]] std::string_view toString(ScanModel model) noexcept;
+/// For sentences: "rigid", "push broom".
+[[nodiscard]] std::string_view printedName(ScanModel model) noexcept;
 
 struct RegistrationOptions {
   RegistrationMethod method = RegistrationMethod::Surface;

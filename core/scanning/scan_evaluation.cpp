@@ -375,7 +375,7 @@ class ArtefactEvaluator {
                    : fmt::format(
                          "its standard uncertainty under the scan model {} is {:.0f} {}: the surface has too little "
                          "slope or height to show it.",
-                         toString(r.scan_model), sigma * (isRotation(k) ? urad_per_rad : um_per_mm),
+                         printedName(r.scan_model), sigma * (isRotation(k) ? urad_per_rad : um_per_mm),
                          printedUnit(unitOf(k))));
         r.covariance.row(i).setZero();
         r.covariance.col(i).setZero();
@@ -463,12 +463,14 @@ void warnUndetermined(ScanEvaluation& evaluation) {
     }
   }
   if (calibration.undetermined.empty() || where == nullptr || worst < 0.05) return;
+  std::vector<std::string> open;
+  for (const std::string& key : calibration.undetermined) open.push_back(mountingInWords(key));
   evaluation.warnings.push_back(fmt::format(
       "Angles of the profiler that the calibration leaves open ({}) make up to {:.2g} µm of the stated uncertainty of "
       "a "
       "displacement ({} in {}). An angle measured otherwise, such as with a dial indicator along the axis, goes into "
       "profiler.mounting_angles_rad of machine.json.",
-      joinedList(calibration.undetermined), worst, where->capture.artefact, where->capture.cycle));
+      joinedList(open), worst, where->capture.artefact, where->capture.cycle));
 }
 
 /// Scans that no motion explains, in one sentence.
@@ -490,7 +492,7 @@ void warnChangesOfShape(ScanEvaluation& evaluation) {
       "No motion under the scan model {} explains {} of {} scans: the surface has changed its shape, by {:.2g} µm rms "
       "in {} {}. The change is found as a free-form field beside the motion; the part that a motion could explain as "
       "well is in the uncertainty of the deviations (in that scan ± {:.2g} µm).",
-      toString(evaluation.scan_model), changed, compared, um_per_mm * size_mm(*most), most->capture.artefact,
+      printedName(evaluation.scan_model), changed, compared, um_per_mm * size_mm(*most), most->capture.artefact,
       most->capture.cycle, sigma.head<3>().maxCoeff()));
 }
 

@@ -10,6 +10,7 @@
 #include "core/reporting/effect_drawing.h"
 #include "core/reporting/markdown_report.h"
 #include "core/reporting/parameter_meanings.h"
+#include "core/workflows/file_reference.h"
 
 namespace spindrift {
 namespace {
@@ -56,6 +57,7 @@ Report manual(std::string_view commands) {
   Report report("Spindrift: the manual", "Version " SPINDRIFT_VERSION);
   report.withoutSignatures();
   for (const std::string& chapter : manualChapters()) addMarkdown(report, chapter);
+  addMarkdown(report, filesMarkdown());
   addParameterMeanings(report);
   addEffects(report);
   addMarkdown(report, commands);

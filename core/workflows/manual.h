@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The manual: chapters that people wrote (resources/manual, in the order of their names), then what the program says of
-// itself, so that it cannot fall behind: error parameters, every effect of the catalogue with its figure, and the
-// commands.
+// itself, so that it cannot fall behind: files, error parameters, every effect of the catalogue with its figure, and
+// the commands.
 #pragma once
 
 #include <string>

@@ -930,10 +930,6 @@
         <translation>Eine Amplitude oder Wellenzahl der Fläche ist keine Zahl; zulässig: endliche Zahlen (mm, rad/mm).</translation>
     </message>
     <message>
-        <source>An expansion of {:g} µm/m/K is below that of any glass ceramic. Steel has 11.5, Invar 1.2.</source>
-        <translation>Eine Ausdehnung von {:g} µm/m/K liegt unter der jeder Glaskeramik. Stahl hat 11,5, Invar 1,2.</translation>
-    </message>
-    <message>
         <source>An interval of {} days is not allowed; allowed: 0 (not said) to 36500.</source>
         <translation>Ein Intervall von {} Tagen ist nicht zulässig; zulässig: 0 (keine Angabe) bis 36500.</translation>
     </message>
@@ -1992,10 +1988,6 @@
     <message>
         <source>The plant store&apos;s address is a URL, in which a password may stand; allowed: postgresql:host=NAME dbname=plant user=NAME.</source>
         <translation>Die Adresse der Werksdatenbank ist eine URL, in der ein Passwort stehen kann; zulässig: postgresql:host=NAME dbname=plant user=NAME.</translation>
-    </message>
-    <message>
-        <source>The plate rises by {:.2f} mrad along the scan, which the scan model push_broom cannot explain: the plate is not level, or the scan is rigid.</source>
-        <translation>Die Platte steigt entlang des Scans um {:.2f} mrad, was das Scanmodell push_broom nicht erklären kann: die Platte ist nicht waagerecht, oder der Scan ist starr.</translation>
     </message>
     <message>
         <source>The pocket in the scan has a radius of {:.3f} mm, the circle given has {:.3f} mm.</source>
@@ -7380,10 +7372,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>{} (der Parameter {} der Simulation)</translation>
     </message>
     <message>
-        <source>{} = {} (was {})</source>
-        <translation>{} = {} (vorher {})</translation>
-    </message>
-    <message>
         <source>{} &quot;{}&quot; is not a range; allowed: FROM:TO in seconds with FROM &lt; TO, such as 0:57600.</source>
         <translation>{} „{}“ ist kein Bereich; zulässig: FROM:TO in Sekunden mit FROM &lt; TO, etwa 0:57600.</translation>
     </message>
@@ -9489,6 +9477,42 @@ endgültig fehlgeschlagen: {}</translation>
         <source>{} is no task of a campaign.</source>
         <translation>{} ist keine Aufgabe einer Kampagne.</translation>
     </message>
+    <message>
+        <source>An expansion of {:g} µm/(m·K) is below that of any glass ceramic. Steel has 11.5, Invar 1.2.</source>
+        <translation>Eine Ausdehnung von {:g} µm/(m·K) liegt unter der jeder Glaskeramik. Stahl hat 11,5, Invar 1,2.</translation>
+    </message>
+    <message>
+        <source>The plate rises by {:.2f} mrad along the scan, which the scan model push broom cannot explain: the plate is not level, or the scan is rigid.</source>
+        <translation>Die Platte steigt entlang des Scans um {:.2f} mrad an, was das zeilenweise Scanmodell nicht erklären kann: Die Platte liegt nicht eben, oder der Scan ist starr.</translation>
+    </message>
+    <message>
+        <source>push broom</source>
+        <translation>zeilenweise</translation>
+    </message>
+    <message>
+        <source>temperature difference of the column, front minus rear</source>
+        <translation>Temperaturdifferenz des Ständers, vorn minus hinten</translation>
+    </message>
+    <message>
+        <source>temperature difference of the column, left minus right</source>
+        <translation>Temperaturdifferenz des Ständers, links minus rechts</translation>
+    </message>
+    <message>
+        <source>{} = {}, before {}</source>
+        <translation>{} = {}, vorher {}</translation>
+    </message>
+    <message>
+        <source>α about X</source>
+        <translation>α um X</translation>
+    </message>
+    <message>
+        <source>β about Y</source>
+        <translation>β um Y</translation>
+    </message>
+    <message>
+        <source>γ about Z</source>
+        <translation>γ um Z</translation>
+    </message>
 </context>
 <context>
     <name>help</name>
@@ -10803,10 +10827,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Werkstoff</translation>
     </message>
     <message>
-        <source>Expansion / µm/m/K</source>
-        <translation>Ausdehnung / µm/(m·K)</translation>
-    </message>
-    <message>
         <source>Steel 11.5, Invar 1.2</source>
         <translation>Stahl 11,5; Invar 1,2</translation>
     </message>
@@ -10901,6 +10921,10 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>Distance from the first ball</source>
         <translation>Abstand von der ersten Kugel</translation>
+    </message>
+    <message>
+        <source>Expansion / (µm/(m·K))</source>
+        <translation>Ausdehnung / (µm/(m·K))</translation>
     </message>
 </context>
 <context>
@@ -12507,6 +12531,10 @@ endgültig fehlgeschlagen: {}</translation>
             <numerusform>%n Spalten sind zugeordnet. Live ansehen oder in das Protokoll dieser Kampagne aufzeichnen.</numerusform>
         </translation>
     </message>
+    <message>
+        <source>http://…, mqtt://… or other</source>
+        <translation>http://…, mqtt://… o. a.</translation>
+    </message>
 </context>
 <context>
     <name>spindrift::gui::ConnectionsService</name>
@@ -13140,7 +13168,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>as the data allow</source>
-        <translation>was die Daten zulassen</translation>
+        <translation>frei</translation>
     </message>
     <message>
         <source>to</source>
@@ -13192,7 +13220,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>ids of simpler effects, separated by commas</source>
-        <translation>Kennungen einfacherer Effekte, durch Kommas getrennt</translation>
+        <translation>Kennungen, durch Kommas getrennt</translation>
     </message>
     <message>
         <source>Effects that are special cases of this one; they are named instead where they are sufficient</source>
@@ -14157,10 +14185,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Kreise</translation>
     </message>
     <message>
-        <source>Algebraic circles through the tracks of the marks (P0 (6)–(9)) lie %1, %2 µm from the joint evaluation in the mean, scatter %3, %4 µm: short arcs pull them. They are shown for comparison and not used.</source>
-        <translation>Algebraische Kreise durch die Bahnen der Musterpunkte (P0 (6)–(9)) liegen im Mittel %1, %2 µm neben der gemeinsamen Auswertung, Streuung %3, %4 µm: kurze Bögen verfälschen sie. Sie stehen zum Vergleich da und werden nicht verwendet.</translation>
-    </message>
-    <message>
         <source>No mark was seen in enough spindle orientations for a circle through its track.</source>
         <translation>Kein Musterpunkt wurde in genügend Spindelorientierungen gesehen, um einen Kreis durch seine Bahn zu legen.</translation>
     </message>
@@ -14171,6 +14195,10 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>Peak / µm</source>
         <translation>Maximum / µm</translation>
+    </message>
+    <message>
+        <source>Algebraic circles through the tracks of the marks lie %1, %2 µm from the joint evaluation in the mean, scatter %3, %4 µm: short arcs pull them. They are shown for comparison and not used.</source>
+        <translation>Algebraische Kreise durch die Bahnen der Musterpunkte liegen im Mittel %1, %2 µm neben der gemeinsamen Auswertung, Streuung %3, %4 µm: kurze Bögen verfälschen sie. Sie stehen zum Vergleich da und werden nicht verwendet.</translation>
     </message>
 </context>
 <context>
@@ -14890,10 +14918,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Angebot</translation>
     </message>
     <message>
-        <source>Filter, or an address</source>
-        <translation>Filter oder Adresse</translation>
-    </message>
-    <message>
         <source>Shows the data items that have this in their names. What cannot be listed (a register, a topic, a place in a line) is added by its address.</source>
         <translation>Zeigt die Datenpunkte, deren Name dies enthält. Was sich nicht auflisten lässt (Register, Topic, Stelle in einer Zeile), wird über seine Adresse hinzugefügt.</translation>
     </message>
@@ -14936,6 +14960,10 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>Data items of the source appear here; tick those that are to be recorded.</source>
         <translation>Hier erscheinen die Datenpunkte der Quelle; ankreuzen, was aufgezeichnet werden soll.</translation>
+    </message>
+    <message>
+        <source>Filter</source>
+        <translation>Filter</translation>
     </message>
 </context>
 <context>
@@ -15548,6 +15576,34 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>The machine was changed meanwhile. Suggest the points again.</source>
         <translation>Die Maschine wurde inzwischen geändert. Die Punkte erneut vorschlagen lassen.</translation>
+    </message>
+    <message>
+        <source>ball screw</source>
+        <translation>Kugelgewindetrieb</translation>
+    </message>
+    <message>
+        <source>rotary encoder</source>
+        <translation>Drehgeber</translation>
+    </message>
+    <message>
+        <source>linear scale</source>
+        <translation>Linearmaßstab</translation>
+    </message>
+    <message>
+        <source>fiducial</source>
+        <translation>Messmarke</translation>
+    </message>
+    <message>
+        <source>hole</source>
+        <translation>Loch</translation>
+    </message>
+    <message>
+        <source>ball</source>
+        <translation>Kugel</translation>
+    </message>
+    <message>
+        <source>surface</source>
+        <translation>Fläche</translation>
     </message>
 </context>
 <context>
@@ -18134,10 +18190,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Bediener</translation>
     </message>
     <message>
-        <source>Name, or empty to sign by hand</source>
-        <translation>Name (leer: von Hand)</translation>
-    </message>
-    <message>
         <source>Name of the operator</source>
         <translation>Name des Bedieners</translation>
     </message>
@@ -18281,6 +18333,10 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>change the name of the operator</source>
         <translation>Namen des Bedieners ändern</translation>
+    </message>
+    <message>
+        <source>Name (empty: by hand)</source>
+        <translation>Name (leer: von Hand)</translation>
     </message>
 </context>
 <context>
@@ -20417,8 +20473,8 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Drift, gemeinsam / µm</translation>
     </message>
     <message>
-        <source>P4 (7)–(10) as printed take every translation for a rotation of the head: here they are off by up to %1 µrad. They are shown for comparison and not used.</source>
-        <translation>P4 (7)–(10) halten, wie gedruckt, jede Verschiebung für eine Drehung des Kopfes: hier liegen sie µm bis zu %1 µrad daneben. Sie stehen zum Vergleich da und werden nicht verwendet.</translation>
+        <source>The closed forms take every translation for a rotation of the head: here they are off by up to %1 µrad. They are shown for comparison and not used.</source>
+        <translation>Die geschlossenen Lösungen halten jede Verschiebung für eine Drehung des Kopfes: Hier weichen sie bis zu %1 µrad ab. Sie stehen zum Vergleich da und werden nicht verwendet.</translation>
     </message>
 </context>
 <context>

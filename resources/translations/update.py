@@ -21,7 +21,7 @@ TOP = pathlib.Path(__file__).resolve().parents[2]
 FORMATS = TOP / "widgets/common/core_formats.cpp"
 CATALOGUES = TOP / "resources/translations"
 # Reports, decks for solvers and the reference of the command line are documents of their own: English.
-LEFT_OUT = re.compile(r"core/(reporting/(?!parameter_meanings)|finite_elements/)|report(?!ing/parameter_meanings)|core/workflows/manual|core/base/program_reference|"
+LEFT_OUT = re.compile(r"core/(reporting/(?!parameter_meanings)|finite_elements/)|report(?!ing/parameter_meanings)|core/workflows/(manual|file_)|core/base/program_reference|"
                       r"core/plant/plant_schema|core/discrepancy/catalogue\.h")
 # Arguments of these are for machines or for programmers.
 NOT_SHOWN = {"SPINDRIFT_ASSERT", "guarded", "writing", "prepare", "log", "demand", "send", "set_pattern", "set_name",
@@ -30,10 +30,10 @@ NOT_SHOWN = {"SPINDRIFT_ASSERT", "guarded", "writing", "prepare", "log", "demand
 TOKEN = re.compile(r'//[^\n]*|/\*.*?\*/|R"(\w*)\((?:.*?)\)\1"|"((?:[^"\\\n]|\\.)*)"|\'(?:[^\'\\\n]|\\.)+\''
                    r'|[A-Za-z_]\w*|\d[\w.\']*|::|->|<<|\S', re.S)
 # Sentences that core puts together in more than one place.
-COMPOSED = ("squareness of {} to {}", "{} = {} (was {})",
+COMPOSED = ("squareness of {} to {}", "{} = {}, before {}",
             "{} of {} captures cannot be used. Take them again, or exclude them.")
 # Words that stand alone.
-ALONE = ("and", "or", "measured", "simulation", "one", "two", "three", "four", "five", "focus", "spindle changed", "re-levelled", "crash", "repair", "moved", "note", "tilt", "rotation", "Signatures", "Where simulation and measurement disagree", "converged", "degenerate", "no convergence", "rejected", "artefact", "bed", "column", "coolant", "instrument", "room",
+ALONE = ("temperature difference of the column, front minus rear", "temperature difference of the column, left minus right", "push broom", "α about X", "β about Y", "γ about Z", "and", "or", "measured", "simulation", "one", "two", "three", "four", "five", "focus", "spindle changed", "re-levelled", "crash", "repair", "moved", "note", "tilt", "rotation", "Signatures", "Where simulation and measurement disagree", "converged", "degenerate", "no convergence", "rejected", "artefact", "bed", "column", "coolant", "instrument", "room",
          "table", "rotary drive")
 # A report is English, but the window lists its sections.
 HEADING = re.compile(r'(?:\bsection\((?:fmt::format\()?|\bsections\.(?:push_back|emplace_back)\(\{?)\s*"([^"]+)"')

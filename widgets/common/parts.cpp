@@ -7,9 +7,11 @@
 #include <QHeaderView>
 #include <QHelpEvent>
 #include <QPainter>
+#include <QRegularExpression>
 #include <QResizeEvent>
 #include <QScrollBar>
 #include <QSplitter>
+#include <QStyledItemDelegate>
 #include <QTabBar>
 #include <QTabWidget>
 #include <QTableView>
@@ -56,6 +58,24 @@ void IconLabel::paintEvent(QPaintEvent*) {
   if (name_.isEmpty()) return;
   QPainter painter(this);
   painter.drawPixmap(0, 0, iconPixmap(name_, theme().tone(tone_), size_, devicePixelRatioF()));
+}
+
+OneLine::OneLine(const QString& text, QWidget* parent) : QLabel(text, parent) {
+  setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
+}
+
+void OneLine::paintEvent(QPaintEvent*) {
+  QPainter painter(this);
+  painter.setPen(palette().color(foregroundRole()));
+  painter.drawText(rect(), Qt::AlignVCenter | Qt::AlignLeft, shown());
+}
+
+bool OneLine::event(QEvent* event) {
+  if (event->type() == QEvent::ToolTip && shown() != text()) {
+    QToolTip::showText(static_cast<QHelpEvent*>(event)->globalPos(), text(), this);
+    return true;
+  }
+  return QLabel::event(event);
 }
 
 WrappedLabel::WrappedLabel(QWidget* parent) : QLabel(parent) {
@@ -292,14 +312,26 @@ QPushButton* makeButton(const QString& text, const char* icon_name, const char* 
 namespace {
 
 /// A table that says what will appear while it has no rows, and whose titles are read whatever the rows hold: where one
-/// column takes what the others leave, the widest of these give way until it has room for its title.
+/// column takes what the others leave, the widest of these give way until it has room for its title. Numbers never do.
 class QuietTable : public QTableView {
  public:
+  /// The column that takes what the others leave; -1: none.
+  [[nodiscard]] int stretched() const {
+    for (int c = 0; model() != nullptr && c < horizontalHeader()->count(); ++c) {
+      if (!isColumnHidden(c) && horizontalHeader()->sectionResizeMode(c) == QHeaderView::Stretch) return c;
+    }
+    return -1;
+  }
+  [[nodiscard]] bool holdsNumbers(int column) const {
+    if (model() == nullptr || model()->rowCount() == 0) return false;
+    return (model()->index(0, column).data(Qt::TextAlignmentRole).toInt() & Qt::AlignRight) != 0;
+  }
   [[nodiscard]] QSize minimumSizeHint() const override {
     const QSize hint = QTableView::minimumSizeHint();
     if (stretched() < 0) return hint;
     int width = 2 * frameWidth() + verticalScrollBar()->sizeHint().width();
-    for (int c = 0; c < horizontalHeader()->count(); ++c) width += titleWidth(c);
+    for (int c = 0; c < horizontalHeader()->count(); ++c)
+      width += holdsNumbers(c) && !isColumnHidden(c) ? std::max(titleWidth(c), contentWidth(c)) : titleWidth(c);
     return {std::max(hint.width(), std::min(width, most_asked_width)), hint.height()};
   }
 
@@ -309,11 +341,12 @@ class QuietTable : public QTableView {
     const int stretch = stretched();
     if (stretch < 0 || stretch == column) return wanted;
     const int least = titleWidth(column);
-    if (wanted <= least) return wanted;
+    if (wanted <= least || holdsNumbers(column)) return wanted;
     std::vector<std::pair<int, int>> others;  // title, content
     for (int c = 0; c < horizontalHeader()->count(); ++c) {
-      if (c != stretch && !isColumnHidden(c))
-        others.emplace_back(titleWidth(c), c == column ? wanted : contentWidth(c));
+      if (c == stretch || isColumnHidden(c)) continue;
+      const int content = c == column ? wanted : contentWidth(c);
+      others.emplace_back(holdsNumbers(c) ? content : titleWidth(c), content);
     }
     // Sentences need the room of a few words, or their cells are columns of syllables.
     const int sentences = wordWrap() ? viewport()->width() * 2 / 5 : 0;
@@ -353,10 +386,10 @@ class QuietTable : public QTableView {
   }
 
  private:
-  /// What is seen of rows that have no room for all of their height: rows of one height are shown whole or not at all.
+  /// What is seen of rows that have no room for all of their height: they are shown whole or not at all.
   [[nodiscard]] std::vector<QRect> cutRows() const {
     std::vector<QRect> cut;
-    if (wordWrap() || verticalHeader()->count() < 2) return cut;
+    if (verticalScrollMode() == QAbstractItemView::ScrollPerPixel || verticalHeader()->count() < 2) return cut;
     for (const int row : {rowAt(0), rowAt(viewport()->height() - 1)}) {
       if (row < 0) continue;
       const QRect place(0, rowViewportPosition(row), viewport()->width(), rowHeight(row));
@@ -364,12 +397,6 @@ class QuietTable : public QTableView {
       if (!whole && place.height() <= viewport()->height()) cut.push_back(place & viewport()->rect());
     }
     return cut;
-  }
-  [[nodiscard]] int stretched() const {
-    for (int c = 0; model() != nullptr && c < horizontalHeader()->count(); ++c) {
-      if (!isColumnHidden(c) && horizontalHeader()->sectionResizeMode(c) == QHeaderView::Stretch) return c;
-    }
-    return -1;
   }
   [[nodiscard]] int titleWidth(int column) const {
     if (isColumnHidden(column)) return 0;
@@ -406,6 +433,14 @@ QTableView* makeTable(QAbstractItemModel* model, const QString& accessible_name,
   table->verticalHeader()->setMinimumSectionSize(36);
   table->setMinimumHeight(120);
   giveTableHabits(table);
+  // Numbers stand beside the others, not at the far end of a wide table.
+  QObject::connect(model, &QAbstractItemModel::modelReset, table, [table] {
+    QHeaderView* titles = table->horizontalHeader();
+    if (titles->count() > 0 && titles->sectionResizeMode(titles->count() - 1) == QHeaderView::ResizeToContents &&
+        table->stretched() < 0)
+      titles->setStretchLastSection(!table->holdsNumbers(titles->count() - 1));
+    table->updateGeometry();  // numbers ask for their width
+  });
   // Narrower columns need more lines.
   QObject::connect(
       table->horizontalHeader(), &QHeaderView::sectionResized, table,
@@ -417,12 +452,38 @@ QTableView* makeTable(QAbstractItemModel* model, const QString& accessible_name,
   return table;
 }
 
+namespace {
+
+/// Cells whose texts go on in further lines: as high as their lines need beside the padding that the style sheet gives
+/// to cells, of which Qt's own hint knows nothing. Names of files and parameters go on after their dots and strokes.
+class WrappedCells : public QStyledItemDelegate {
+ public:
+  using QStyledItemDelegate::QStyledItemDelegate;
+  [[nodiscard]] QString displayText(const QVariant& value, const QLocale& locale) const override {
+    static const QRegularExpression joints(QStringLiteral("(?<=\\w)([._/])(?=[A-Za-z])"));
+    return QStyledItemDelegate::displayText(value, locale).replace(joints, QStringLiteral("\\1\u200b"));
+  }
+  [[nodiscard]] QSize sizeHint(const QStyleOptionViewItem& option, const QModelIndex& index) const override {
+    constexpr int padding = 6;  // of the style sheet
+    QStyleOptionViewItem narrower = option;
+    narrower.rect.setWidth(std::max(1, option.rect.width() - 2 * padding));
+    return QStyledItemDelegate::sizeHint(narrower, index);
+  }
+};
+
+}  // namespace
+
+void wrapCells(QTableView* table) {
+  table->setWordWrap(true);
+  table->setItemDelegate(new WrappedCells(table));
+  table->verticalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
+}
+
 QTableView* makeSentenceTable(QAbstractItemModel* model, const QString& accessible_name, const QString& empty_text) {
   QTableView* table = makeTable(model, accessible_name, empty_text);
-  table->setWordWrap(true);
+  wrapCells(table);
   table->setVerticalScrollMode(QAbstractItemView::ScrollPerPixel);  // a sentence may be higher than the table
   table->horizontalHeader()->setSectionResizeMode(model->columnCount() - 1, QHeaderView::Stretch);
-  table->verticalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
   return table;
 }
 

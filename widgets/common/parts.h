@@ -41,6 +41,20 @@ class IconLabel : public QWidget {
   int size_;
 };
 
+/// One line that gives way where there is no room: it ends in dots then, and all of it is its tip.
+class OneLine : public QLabel {
+ public:
+  explicit OneLine(const QString& text = {}, QWidget* parent = nullptr);
+  [[nodiscard]] QSize minimumSizeHint() const override { return {0, QLabel::minimumSizeHint().height()}; }
+
+ protected:
+  void paintEvent(QPaintEvent* event) override;
+  bool event(QEvent* event) override;
+
+ private:
+  [[nodiscard]] QString shown() const { return fontMetrics().elidedText(text(), Qt::ElideRight, width()); }
+};
+
 /// Sentences that are as high as their lines need at the width they have. A layout asks a label that is hidden, or
 /// whose text has just changed, for the height of the text before, and the tabs of a page ask for none: a second line
 /// is cut.
@@ -149,6 +163,8 @@ class EmptyState : public QWidget {
 /// `empty_text` stands in it while there are no rows.
 [[nodiscard]] QTableView* makeTable(QAbstractItemModel* model, const QString& accessible_name,
                                     const QString& empty_text = {});
+/// Texts that have no room in their column go on in further lines, rows are as high as these. For tables of few rows.
+void wrapCells(QTableView* table);
 /// The same with sentences in its last column, which has the room that the others leave and as many lines as it needs.
 [[nodiscard]] QTableView* makeSentenceTable(QAbstractItemModel* model, const QString& accessible_name,
                                             const QString& empty_text);

@@ -14,6 +14,11 @@ QString unitText(std::string_view unit) {
   return QString::fromStdString(printedUnit(unit));
 }
 
+QString fileUnit(QString unit) {
+  for (const char16_t micro : {u'\u00b5', u'\u03bc'}) unit.replace(QChar(micro), QLatin1Char('u'));
+  return unit.replace(QStringLiteral("°C"), QStringLiteral("degC"));
+}
+
 QString printedTitle(const QString& title) {
   const QString border = QStringLiteral(" / ");
   const qsizetype at = title.lastIndexOf(border);

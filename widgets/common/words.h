@@ -12,6 +12,8 @@ namespace spindrift::gui {
 [[nodiscard]] QString sentenceStart(QString text);
 /// A unit as people write it: "um" -> "µm".
 [[nodiscard]] QString unitText(std::string_view unit);
+/// The same back, for files: "µm" -> "um".
+[[nodiscard]] QString fileUnit(QString unit);
 /// The unit behind the last " / " of a title as people write it: "EX / um" -> "EX / µm".
 [[nodiscard]] QString printedTitle(const QString& title);
 [[nodiscard]] QStringList printedTitles(QStringList titles);

@@ -2,45 +2,14 @@
 #include "widgets/jobs/job_bar.h"
 
 #include <QHBoxLayout>
-#include <QHelpEvent>
 #include <QLabel>
-#include <QPainter>
 #include <QProgressBar>
 #include <QPushButton>
-#include <QToolTip>
 
 #include "widgets/common/parts.h"
 #include "widgets/theme/icons.h"
 
 namespace spindrift::gui {
-
-namespace {
-
-/// A sentence in one line: what does not fit ends in an ellipsis and is read whole under the cursor (and in the list of
-/// messages).
-class OneLine : public QLabel {
- public:
-  using QLabel::QLabel;
-  [[nodiscard]] QSize minimumSizeHint() const override { return {0, QLabel::minimumSizeHint().height()}; }
-
- protected:
-  void paintEvent(QPaintEvent*) override {
-    QPainter painter(this);
-    painter.drawText(rect(), Qt::AlignVCenter | Qt::AlignLeft, shown());
-  }
-  bool event(QEvent* event) override {
-    if (event->type() == QEvent::ToolTip && shown() != text()) {
-      QToolTip::showText(static_cast<QHelpEvent*>(event)->globalPos(), text(), this);
-      return true;
-    }
-    return QLabel::event(event);
-  }
-
- private:
-  [[nodiscard]] QString shown() const { return fontMetrics().elidedText(text(), Qt::ElideRight, width()); }
-};
-
-}  // namespace
 
 JobBar::JobBar(JobRunner& runner, QWidget* parent) : QFrame(parent), runner_(runner) {
   setProperty("role", QStringLiteral("bar"));
@@ -50,7 +19,6 @@ JobBar::JobBar(JobRunner& runner, QWidget* parent) : QFrame(parent), runner_(run
   line->setSpacing(10);
   icon_ = new IconLabel(QStringLiteral("check-circle"), Tone::Neutral);
   text_ = new OneLine(tr("Ready"));
-  text_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
   progress_ = new QProgressBar;
   progress_->setRange(0, 1000);
   progress_->setTextVisible(false);

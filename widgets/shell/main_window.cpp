@@ -88,7 +88,8 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent), workflow_(session
   auto* top_line = new QHBoxLayout(top);
   top_line->setContentsMargins(24, 6, 12, 6);
   top_line->setSpacing(8);
-  session_name_ = makeLabel({}, "secondaryText");
+  session_name_ = new OneLine;
+  session_name_->setProperty("role", QStringLiteral("secondaryText"));
   campaign_ = new QComboBox;
   campaign_->setSizeAdjustPolicy(QComboBox::AdjustToContents);
   campaign_->setAccessibleName(tr("Campaign"));

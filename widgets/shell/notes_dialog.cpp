@@ -18,6 +18,23 @@
 
 namespace spindrift::gui {
 
+namespace {
+
+/// What a note is about stands in the session in English, as in the report; steps are shown as the window calls them.
+QString shownAbout(const std::string& about) {
+  for (const StepId step : all_steps)
+    if (about == toString(step)) return stepTitle(step);
+  return QString::fromStdString(about);
+}
+
+std::string writtenAbout(const QString& about) {
+  for (const StepId step : all_steps)
+    if (about == stepTitle(step)) return std::string(toString(step));
+  return about.toStdString();
+}
+
+}  // namespace
+
 NotesDialog::NotesDialog(SessionModel& session, CampaignUndo& undo, const QString& about, const QString& item,
                          QWidget* parent)
     : QDialog(parent), session_(session), undo_(undo) {
@@ -26,7 +43,7 @@ NotesDialog::NotesDialog(SessionModel& session, CampaignUndo& undo, const QStrin
   auto* column = new QVBoxLayout(this);
   column->setSpacing(8);
   rows_ = new RowsModel({tr("When (UTC)"), tr("About"), tr("Item"), tr("Note")}, this);
-  table_ = makeTable(rows_, tr("Notes"), tr("Notes that you add appear here and in the report."));
+  table_ = makeSentenceTable(rows_, tr("Notes"), tr("Notes that you add appear here and in the report."));
   column->addWidget(table_, 2);
   about_ = new QComboBox;
   about_->setEditable(true);
@@ -85,7 +102,7 @@ void NotesDialog::refresh() {
     Row row;
     row.id = QString::number(note.id);
     row.cells = {{QString::fromStdString(note.created_utc).replace(QLatin1Char('T'), QLatin1Char(' ')).chopped(1)},
-                 {QString::fromStdString(note.step)},
+                 {shownAbout(note.step)},
                  {QString::fromStdString(note.item)},
                  {QString::fromStdString(note.text)}};
     for (const std::size_t cell : {2U, 3U}) row.cells[cell].tip = row.cells[cell].text;
@@ -99,7 +116,7 @@ void NotesDialog::add() {
   const std::size_t before = session_.notes().size();
   undo_.push(
       new NoteCommand(session_,
-                      {0, about_->currentText().trimmed().toStdString(), text_->toPlainText().trimmed().toStdString(),
+                      {0, writtenAbout(about_->currentText().trimmed()), text_->toPlainText().trimmed().toStdString(),
                        utcNow(), item_->currentText().trimmed().toStdString()},
                       true));
   if (session_.notes().size() > before) text_->clear();

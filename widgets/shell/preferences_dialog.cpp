@@ -13,6 +13,8 @@
 #include <QPushButton>
 #include <QScrollArea>
 #include <QVBoxLayout>
+#include <algorithm>
+#include <array>
 
 #include "widgets/common/languages.h"
 #include "widgets/common/parts.h"
@@ -121,6 +123,19 @@ PreferencesDialog::PreferencesDialog(QWidget* parent) : QDialog(parent) {
   buttons->addWidget(close);
   outer->addLayout(buttons);
   resize(560, sizeHint().height());
+
+  // The fields of all sections stand below each other.
+  int widest = 0;
+  const std::array<QFormLayout*, 4> forms{look, numbers, folders, goals};
+  const auto labels = [&forms](auto&& each) {
+    for (const QFormLayout* form : forms) {
+      for (int row = 0; row < form->rowCount(); ++row) {
+        if (const QLayoutItem* item = form->itemAt(row, QFormLayout::LabelRole)) each(*item->widget());
+      }
+    }
+  };
+  labels([&](const QWidget& label) { widest = std::max(widest, label.sizeHint().width()); });
+  labels([&](QWidget& label) { label.setFixedSize(widest, sizes::control_height); });
 
   fill();
   for (QComboBox* box : {look_, language_, decimals_})

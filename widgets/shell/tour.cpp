@@ -104,8 +104,8 @@ bool settled(MainWindow& window) {
 bool waitForJobs(MainWindow& window, int seconds) {
   QElapsedTimer timer;
   timer.start();
-  settle(20);
-  while (!settled(window)) {
+  // Twice: what a job has just changed finds its place only then.
+  for (int quiet = 0; quiet < 2; quiet = settled(window) ? quiet + 1 : 0) {
     if (timer.elapsed() > 1000LL * seconds) return false;
     settle(20);
   }

@@ -144,10 +144,12 @@ QRectF paintColourBar(QPainter& painter, const QRectF& area, const ColourScale& 
   return panel;
 }
 
-QStringList wrappedNotes(const QStringList& lines, double room) {
+QStringList wrappedNotes(const QStringList& lines, double room, double height) {
   const QFontMetricsF metrics(textFont(sizes::font_secondary));
+  const auto most = static_cast<qsizetype>(height / 3 / (metrics.height() + 3));
   QStringList out;
   for (const QString& line : lines) {
+    const qsizetype before = out.size();
     QString part;
     for (const QString& word : line.split(QLatin1Char(' '))) {
       const QString longer = part.isEmpty() ? word : part + QLatin1Char(' ') + word;
@@ -159,6 +161,7 @@ QStringList wrappedNotes(const QStringList& lines, double room) {
       }
     }
     out << metrics.elidedText(part, Qt::ElideRight, room);
+    if (before > 0 && out.size() > most) return out.mid(0, before);
   }
   return out;
 }

@@ -16,7 +16,8 @@ namespace spindrift::gui {
 /// rectangle it took.
 QRectF paintColourBar(QPainter& painter, const QRectF& area, const ColourScale& scale, bool lying = false);
 /// Notes in as many lines as `room` (px) asks for.
-[[nodiscard]] QStringList wrappedNotes(const QStringList& lines, double room);
+/// `height` of the view: the last notes are left out where all of them would take more than a third of it.
+[[nodiscard]] QStringList wrappedNotes(const QStringList& lines, double room, double height);
 /// The panel at the top left with some lines, none wider than `room`; empty without lines.
 [[nodiscard]] QRectF notesPanel(const QStringList& lines, double room);
 /// Three short axes with their names at the bottom left.

@@ -378,7 +378,7 @@ void View3D::paintOverlay(QPainter& painter, const QSize& size, bool with_tools)
   painter.setFont(textFont(sizes::font_secondary));
   const QFontMetricsF metrics(painter.font());
   const double room = area.width() - 48 - (bar.isEmpty() || arrangement_.bar_below ? 0.0 : area.width() - bar.left());
-  const QStringList lines = wrappedNotes(notes(size), room);
+  const QStringList lines = wrappedNotes(notes(size), room, size.height());
   const double line_height = metrics.height() + 3;
   const QRectF panel = notesPanel(lines, room);
   const QRectF triad(whole.left(), whole.bottom() - 92, 92, 92);

@@ -63,7 +63,7 @@ Camera View3D::cameraFor(const QSize& size, const Arrangement& arrangement) cons
   // Notes and buttons move it only where they would cover it.
   const double bar = showsScale() && !arrangement.bar_below ? colourBarWidth(*scale_) : 0.0;
   const double room = pane.width() - 48 - bar;
-  const QRectF notes_panel = notesPanel(wrappedNotes(notes(size), room), room);
+  const QRectF notes_panel = notesPanel(wrappedNotes(notes(size), room, size.height()), room);
   QRectF seen = camera.frame(box.first, box.second, pane).marginsAdded(labels);
   if (seen.intersects(notes_panel)) {
     labels.setTop(labels.top() + std::min(notes_panel.bottom(), most_for_notes * pane.height()) - margins.top() +

@@ -13,10 +13,15 @@ namespace {
 TEST(Text, PValuesAreReadableAndPromiseNoMoreThanTheNoiseModelKnows) {
   EXPECT_EQ(pValueText(0.5123), "p = 0.51");
   EXPECT_EQ(pValueText(0.0012), "p = 0.0012");
-  EXPECT_EQ(pValueText(6.4e-5), "p = 6e-05");
-  EXPECT_EQ(pValueText(1e-100), "p < 1e-12");
-  EXPECT_EQ(pValueText(0.0), "p < 1e-12");
+  EXPECT_EQ(pValueText(6.4e-5), "p = 6 × 10⁻⁵");
+  EXPECT_EQ(pValueText(1e-100), "p < 10⁻¹²");
+  EXPECT_EQ(pValueText(0.0), "p < 10⁻¹²");
   EXPECT_EQ(pValueText(std::nan("")), "p not determined");
+  EXPECT_EQ(probabilityText(1e-20), "< 10⁻¹²");
+  EXPECT_EQ(probabilityText(3e-5), "3 × 10⁻⁵");
+  EXPECT_EQ(probabilityText(9.7e-4), "1 × 10⁻³") << "not 10 × 10⁻⁴";
+  EXPECT_EQ(probabilityText(0.04), "0.04");
+  EXPECT_EQ(probabilityText(std::nan("")), "–");
 }
 
 TEST(Text, UnitsOfFilesAreSymbolsInTexts) {

@@ -13,6 +13,7 @@
 
 #include "core/base/random.h"
 #include "core/base/units.h"
+#include "widgets/view3d/overlay.h"
 #include "widgets/view3d/point_labels.h"
 
 namespace spindrift::gui {
@@ -344,6 +345,22 @@ TEST(PointLabels, AllAreShownWithTheirValuesWhereThereIsRoom) {
   const auto labels = placeLabels(fromAbove(large), large, points, {});
   ASSERT_EQ(labels.size(), points.size());
   for (const PlacedLabel& label : labels) EXPECT_TRUE(label.with_value);
+}
+
+TEST(Notes, TakeNoMoreThanAThirdOfTheView) {
+  const QStringList notes{QStringLiteral("EX of state M1 against M0"),
+                          QStringLiteral("Arrows 1000 times larger than the deviation"),
+                          QStringLiteral("Faded: within 2 standard uncertainties of zero")};
+  const double line = notesPanel({notes[0], notes[1]}, 1000).height() - notesPanel({notes[0]}, 1000).height();
+  EXPECT_EQ(wrappedNotes(notes, 1000, 400), notes);
+  for (const double room : {60.0, 120.0, 400.0}) {
+    for (const double height : {120.0, 200.0, 400.0}) {
+      const QStringList lines = wrappedNotes(notes, room, height);
+      ASSERT_FALSE(lines.isEmpty());
+      const bool one = lines == wrappedNotes({notes[0]}, room, height);
+      EXPECT_TRUE(one || line * static_cast<double>(lines.size()) <= height / 3) << room << " of " << height;
+    }
+  }
 }
 
 TEST(MachineBodies, RotaryAxesAreRoundBodiesWhereTheChainHasThem) {

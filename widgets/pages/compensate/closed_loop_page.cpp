@@ -131,7 +131,6 @@ ClosedLoopPage::ClosedLoopPage(SessionModel& session, QWidget* parent)
   auto* right = new Card(tr("What happened"));
   events_ = new RowsModel({tr("Time"), tr("Event")}, this);
   event_table_ = makeTable(events_, tr("What happened"), tr("Events of the loop appear here."));
-  event_table_->setWordWrap(true);
   stretchColumn(event_table_, 1);
   right->body()->addWidget(event_table_, 1);
   happened_ = right;

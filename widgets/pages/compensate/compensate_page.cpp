@@ -122,7 +122,7 @@ CompensatePage::CompensatePage(PageContext page_context, QWidget* parent)
   files_column->addLayout(file_choices);
   files_ = new RowsModel({tr("File"), tr("What it holds")}, this);
   files_column->setSpacing(8);
-  file_table_ = makeTable(files_, tr("Files for the control"), tr("Files appear here."));
+  file_table_ = makeSentenceTable(files_, tr("Files for the control"), tr("Files appear here."));
   files_column->addWidget(file_table_, 4);
   convention_ = makeLabel({}, "instruction");
   convention_->setWordWrap(true);
@@ -138,10 +138,9 @@ CompensatePage::CompensatePage(PageContext page_context, QWidget* parent)
   left->body()->addWidget(tabs_, 1);
 
   auto* right = new Card;
-  auto* view_line = new QHBoxLayout;
+  auto* view_line = new WrapLayout;
   arrows_ = new Segments({tr("Correction"), tr("Measured"), tr("Remains")}, tr("What the arrows show"));
   view_line->addWidget(arrows_);
-  view_line->addStretch();
   machine_ = new QCheckBox(tr("Machine"));
   view_line->addWidget(machine_);
   right->body()->addLayout(view_line);

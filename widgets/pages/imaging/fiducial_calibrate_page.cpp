@@ -62,22 +62,37 @@ FiducialCalibratePage::FiducialCalibratePage(PageContext page_context, QWidget* 
   tiles->body()->addLayout(line);
   content()->addWidget(tiles);
 
-  auto* left = new Card;
   tabs_ = makeTabs();
+  auto* left = new Card(tr("Deviations"));
   displacements_ = new RowsModel({tr("Fiducial"), tr("State"), tr("EX / µm"), tr("EY / µm"), tr("EZ / µm")}, this);
-  tabs_->addTab(
-      makeTable(displacements_, tr("Deviations"), tr("Deviations of each fiducial appear after the evaluation.")),
-      tr("Deviations"));
+  left->body()->addWidget(
+      makeTable(displacements_, tr("Deviations"), tr("Deviations of each fiducial appear after the evaluation.")), 1);
+  auto* right = new Card(tr("Contrast over height"));
+  fiducial_ = new QComboBox;
+  fiducial_->setAccessibleName(tr("Fiducial whose contrast curves are shown"));
+  fiducial_->setMinimumWidth(120);
+  right->addToTitle(fiducial_);
+  connect(fiducial_, &QComboBox::activated, this, &FiducialCalibratePage::showContrast);
+  contrast_ = new Plot;
+  contrast_->setAxes(tr("Commanded height / µm"), tr("Contrast, normalised"));
+  contrast_->setEmptyText(tr("Contrast curves will appear here"),
+                          tr("Evaluate the captures: the peak of each curve is the height of its fiducial."));
+  right->body()->addWidget(contrast_, 1);
+  tabs_->addTab(makeSplitter(left, right, 6, 6), tr("Deviations"));
+  const auto add = [this](QWidget* content, const QString& title) {
+    auto* card = new Card;
+    card->body()->addWidget(content, 1);
+    tabs_->addTab(card, title);
+  };
   sets_ = new RowsModel({tr("Fiducial"), tr("State"), tr("Centre x / px"), tr("Centre y / px"), tr("Scatter / µm"),
                          tr("X to Y − 90° / µrad"), tr("Peak / µm")},
                         this);
-  tabs_->addTab(makeTable(sets_, tr("Sets"), tr("Centres, directions and heights appear after the evaluation.")),
-                tr("Sets"));
+  add(makeTable(sets_, tr("Sets"), tr("Centres, directions and heights appear after the evaluation.")), tr("Sets"));
   rejected_ = new RowsModel({tr("Capture"), tr("Why it was left out")}, this);
-  tabs_->addTab(makeSentenceTable(rejected_, tr("Left out"), tr("Nothing was left out.")), tr("Left out"));
+  add(makeSentenceTable(rejected_, tr("Left out"), tr("Nothing was left out.")), tr("Left out"));
   auto* checks = new QWidget;
   auto* checks_column = new QVBoxLayout(checks);
-  checks_column->setContentsMargins(0, 8, 0, 0);
+  checks_column->setContentsMargins(0, 0, 0, 0);
   check_kind_ = new QComboBox;
   check_kind_->setAccessibleName(tr("What the states are"));
   check_kind_->addItems({tr("The states are thermal states: nothing to check"), tr("Jogs within one resolution"),
@@ -90,10 +105,10 @@ FiducialCalibratePage::FiducialCalibratePage(PageContext page_context, QWidget* 
   checks_column->addWidget(makeTable(resolution_, tr("Check against the resolution"),
                                      tr("Say what the states are to compare them with the resolution of the axes.")),
                            1);
-  tabs_->addTab(checks, tr("Resolution"));
+  add(checks, tr("Resolution"));
   auto* comparison = new QWidget;
   auto* comparison_column = new QVBoxLayout(comparison);
-  comparison_column->setContentsMargins(0, 8, 0, 0);
+  comparison_column->setContentsMargins(0, 0, 0, 0);
   circles_verdict_ = new Callout;
   comparison_column->addWidget(circles_verdict_);
   circles_ = new RowsModel({tr("Fiducial"), tr("State"), tr("Joint x / px"), tr("Joint y / px"), tr("Circles x / px"),
@@ -103,21 +118,9 @@ FiducialCalibratePage::FiducialCalibratePage(PageContext page_context, QWidget* 
       makeTable(circles_, tr("Circles"),
                 tr("No mark was seen in enough spindle orientations for a circle through its track.")),
       1);
-  tabs_->addTab(comparison, tr("Circles"));
+  add(comparison, tr("Circles"));
   connect(check_kind_, &QComboBox::activated, this, &FiducialCalibratePage::showResolutionCheck);
-  left->body()->addWidget(tabs_, 1);
-  auto* right = new Card(tr("Contrast over height"));
-  fiducial_ = new QComboBox;
-  fiducial_->setAccessibleName(tr("Fiducial whose contrast curves are shown"));
-  fiducial_->setMinimumWidth(120);
-  right->addToTitle(fiducial_);
-  connect(fiducial_, &QComboBox::activated, this, &FiducialCalibratePage::showContrast);
-  contrast_ = new Plot;
-  contrast_->setAxes(tr("Commanded height / µm"), tr("Contrast, normalised"));
-  contrast_->setEmptyText(tr("Contrast curves will appear here"),
-                          tr("Evaluate the captures: the peak of each curve is the height of its fiducial."));
-  right->body()->addWidget(contrast_, 1);
-  content()->addWidget(makeSplitter(left, right, 6, 6), 1);
+  content()->addWidget(tabs_, 1);
   showHints(contrast_);
   connect(evaluate_, &QPushButton::clicked, this, [this] { runTask("evaluate"); });
 }
@@ -336,7 +339,7 @@ void FiducialCalibratePage::showCircles(const StoredEvaluation& evaluation) {
   }
   circles_verdict_->show(
       Tone::Neutral,
-      tr("Algebraic circles through the tracks of the marks (P0 (6)–(9)) lie %1, %2 µm from the joint "
+      tr("Algebraic circles through the tracks of the marks lie %1, %2 µm from the joint "
          "evaluation in the mean, scatter %3, %4 µm: short arcs pull them. They are shown for comparison "
          "and not used.")
           .arg(decimalText(pooled["mean"][0].get<double>(), 'f', 1))

@@ -91,9 +91,9 @@ NineParameterPage::NineParameterPage(PageContext page_context, QWidget* parent)
 
   tabs_ = makeTabs();
   parameters_ = new RowsModel({tr("Parameter"), tr("Value"), tr("Meaning")}, this);
-  tabs_->addTab(
-      makeTable(parameters_, tr("Parameters"), tr("Nine parameters with their uncertainty appear after the fit.")),
-      tr("Parameters"));
+  tabs_->addTab(makeSentenceTable(parameters_, tr("Parameters"),
+                                  tr("Nine parameters with their uncertainty appear after the fit.")),
+                tr("Parameters"));
   residuals_ = new RowsModel(
       {tr("Point"), tr("Component"), tr("Measured"), tr("Residual"), tr("Residual / σ"), tr("Used")}, this);
   residual_table_ =

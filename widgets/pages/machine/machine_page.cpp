@@ -9,6 +9,7 @@
 #include <QLineEdit>
 #include <QSpinBox>
 #include <QSplitter>
+#include <QStyledItemDelegate>
 #include <QTabWidget>
 #include <QTableWidget>
 #include <QVBoxLayout>
@@ -72,6 +73,30 @@ QStringList machineFindings(const MachineDescription& machine) {
   return findings;
 }
 
+namespace {
+
+/// Shows the words that machine.json has for kinds in the language of the window; what is typed stays what the file
+/// says.
+class KindWords : public QStyledItemDelegate {
+ public:
+  using QStyledItemDelegate::QStyledItemDelegate;
+  [[nodiscard]] QString displayText(const QVariant& value, const QLocale&) const override {
+    const QString word = value.toString();
+    for (const auto& [written, shown] : {std::pair{"ball_screw", MachinePage::tr("ball screw")},
+                                         {"rotary_encoder", MachinePage::tr("rotary encoder")},
+                                         {"linear_scale", MachinePage::tr("linear scale")},
+                                         {"fiducial", MachinePage::tr("fiducial")},
+                                         {"hole", MachinePage::tr("hole")},
+                                         {"ball", MachinePage::tr("ball")},
+                                         {"surface", MachinePage::tr("surface")}}) {
+      if (word == QLatin1String(written)) return shown;
+    }
+    return word;
+  }
+};
+
+}  // namespace
+
 MachinePage::MachinePage(PageContext page_context, QWidget* parent)
     : Page(std::move(page_context), StepId::Machine, parent),
       draft_(context().session, context().undo, "machine", [this] { refresh(); }) {
@@ -102,10 +127,12 @@ MachinePage::MachinePage(PageContext page_context, QWidget* parent)
   axes_ = makeEditor({tr("Axis"), tr("From\n/ mm"), tr("To\n/ mm"), tr("Resolution\n/ µm"), tr("Drive"),
                       tr("Pitch\n/ mm"), tr("Fixed bearing\n/ mm"), tr("Scale")},
                      tr("Linear axes"));
+  for (const int column : {4, 7}) axes_->setItemDelegateForColumn(column, new KindWords(axes_));
   axes_->setMinimumHeight(176);  // three axes under a header of two lines
   card->body()->addWidget(axes_, 2);
   card->body()->addWidget(makeLabel(tr("Measuring points"), "sectionTitle"));
   points_ = makeEditor({tr("Point"), tr("Kind"), tr("x / mm"), tr("y / mm"), tr("z / mm")}, tr("Measuring points"));
+  points_->setItemDelegateForColumn(1, new KindWords(points_));
   points_->setMinimumHeight(150);
   card->body()->addWidget(points_, 3);
   auto* point_buttons = new WrapLayout;

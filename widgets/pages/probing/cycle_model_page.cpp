@@ -75,8 +75,8 @@ CycleModelPage::CycleModelPage(PageContext page_context, QWidget* parent)
   left->body()->addLayout(choice);
   auto* tabs = makeTabs();
   parameters_ = new RowsModel({tr("Parameter"), tr("Value"), tr("Value / u"), tr("Meaning")}, this);
-  tabs->addTab(makeTable(parameters_, tr("Parameters of the cycle"),
-                         tr("Every parameter with its uncertainty appears after the fit.")),
+  tabs->addTab(makeSentenceTable(parameters_, tr("Parameters of the cycle"),
+                                 tr("Every parameter with its uncertainty appears after the fit.")),
                tr("Parameters"));
   combinations_ =
       new RowsModel({tr("Cycle"), tr("Condition number"), tr("Determined worst"), tr("Not determined")}, this);

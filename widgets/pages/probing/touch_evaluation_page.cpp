@@ -30,7 +30,7 @@ namespace {
 QWidget* withVerdict(Callout* verdict, QWidget* table) {
   auto* page = new QWidget;
   auto* column = new QVBoxLayout(page);
-  column->setContentsMargins(0, 8, 0, 0);
+  column->setContentsMargins(0, 0, 0, 0);
   column->addWidget(verdict);
   column->addWidget(table, 1);
   return page;
@@ -59,47 +59,17 @@ TouchEvaluationPage::TouchEvaluationPage(PageContext page_context, QWidget* pare
   tiles->body()->addLayout(line);
   content()->addWidget(tiles);
 
+  tabs_ = makeTabs();
   auto* left = new Card(tr("Features"));
   cycle_ = new QComboBox;
   cycle_->setAccessibleName(tr("Cycle whose features are listed"));
   cycle_->setMinimumWidth(120);
   left->addToTitle(cycle_);
-  tabs_ = makeTabs();
   features_ = new RowsModel(
       {tr("Feature"), tr("x / mm"), tr("y / mm"), tr("z / mm"), tr("± / µm"), tr("D / mm"), tr("Form / µm")}, this);
-  tabs_->addTab(makeTable(features_, tr("Features"),
-                          tr("Centre, diameter and form of every hole or ball appear after the evaluation.")),
-                tr("Features"));
-  left_out_ = new RowsModel({tr("Touch"), tr("Why it was left out")}, this);
-  tabs_->addTab(makeSentenceTable(left_out_, tr("Left out"), tr("Nothing was left out.")), tr("Left out"));
-  lengths_ = new RowsModel({}, this);
-  tabs_->addTab(makeTable(lengths_, tr("Lengths"), tr("Distances and straightness appear after the evaluation.")),
-                tr("Lengths"));
-  comparison_verdict_ = new Callout;
-  comparison_ = new RowsModel({}, this);
-  tabs_->addTab(withVerdict(comparison_verdict_,
-                            makeTable(comparison_, tr("Comparison"),
-                                      tr("Nothing to compare with: balls need three styli, a bar of holes its "
-                                         "certificate or its expansion coefficient with a thermometer."))),
-                tr("Comparison"));
-  repeatability_verdict_ = new Callout;
-  repeatability_ =
-      new RowsModel({tr("Parameter"), tr("Repeatability, k = 2"), tr("From touch noise"), tr("Unit")}, this);
-  tabs_->addTab(withVerdict(repeatability_verdict_, makeTable(repeatability_, tr("Repeatability"),
-                                                              tr("Repeatability requires at least 18 cycles."))),
-                tr("Repeatability"));
-  health_verdict_ = new Callout;
-  health_ = new RowsModel({tr("Stylus"), tr("Sphere"), tr("Radius / mm"), tr("Pre-travel / µm"), tr("Repeats / µm"),
-                           tr("Step / µm"), tr("Verdict")},
-                          this);
-  tabs_->addTab(
-      withVerdict(health_verdict_, makeTable(health_, tr("Health of the probe"),
-                                             tr("Touch a sphere from at least five directions to qualify the styli."))),
-      tr("Probe"));
-  reference_ = new ReferencePanel(context());
-  tabs_->addTab(reference_, tr("Reference"));
-  left->body()->addWidget(tabs_, 1);
-
+  left->body()->addWidget(makeTable(features_, tr("Features"),
+                                    tr("Centre, diameter and form of every hole or ball appear after the evaluation.")),
+                          1);
   auto* right = new Card(tr("Deviation over time"));
   point_ = new QComboBox;
   point_->setAccessibleName(tr("Feature whose deviations are shown"));
@@ -110,7 +80,39 @@ TouchEvaluationPage::TouchEvaluationPage(PageContext page_context, QWidget* pare
   plot_->setEmptyText(tr("Deviations will appear here"),
                       tr("Evaluate the touches: every feature is compared with the first cycle."));
   right->body()->addWidget(plot_, 1);
-  content()->addWidget(makeSplitter(left, right, 9, 5), 1);
+  tabs_->addTab(makeSplitter(left, right, 9, 5), tr("Features"));
+  const auto add = [this](QWidget* content, const QString& title) {
+    auto* card = new Card;
+    card->body()->addWidget(content, 1);
+    tabs_->addTab(card, title);
+  };
+  left_out_ = new RowsModel({tr("Touch"), tr("Why it was left out")}, this);
+  add(makeSentenceTable(left_out_, tr("Left out"), tr("Nothing was left out.")), tr("Left out"));
+  lengths_ = new RowsModel({}, this);
+  add(makeTable(lengths_, tr("Lengths"), tr("Distances and straightness appear after the evaluation.")), tr("Lengths"));
+  comparison_verdict_ = new Callout;
+  comparison_ = new RowsModel({}, this);
+  add(withVerdict(comparison_verdict_,
+                  makeTable(comparison_, tr("Comparison"),
+                            tr("Nothing to compare with: balls need three styli, a bar of holes its "
+                               "certificate or its expansion coefficient with a thermometer."))),
+      tr("Comparison"));
+  repeatability_verdict_ = new Callout;
+  repeatability_ =
+      new RowsModel({tr("Parameter"), tr("Repeatability, k = 2"), tr("From touch noise"), tr("Unit")}, this);
+  add(withVerdict(repeatability_verdict_,
+                  makeTable(repeatability_, tr("Repeatability"), tr("Repeatability requires at least 18 cycles."))),
+      tr("Repeatability"));
+  health_verdict_ = new Callout;
+  health_ = new RowsModel({tr("Stylus"), tr("Sphere"), tr("Radius / mm"), tr("Pre-travel / µm"), tr("Repeats / µm"),
+                           tr("Step / µm"), tr("Verdict")},
+                          this);
+  add(withVerdict(health_verdict_, makeTable(health_, tr("Health of the probe"),
+                                             tr("Touch a sphere from at least five directions to qualify the styli."))),
+      tr("Probe"));
+  reference_ = new ReferencePanel(context());
+  add(reference_, tr("Reference"));
+  content()->addWidget(tabs_, 1);
   showHints(plot_);
   connect(evaluate_, &QPushButton::clicked, this, [this] { runTask("evaluate"); });
   connect(cycle_, &QComboBox::activated, this, &TouchEvaluationPage::showFeatures);
@@ -391,8 +393,8 @@ void TouchEvaluationPage::showComparison() {
       comparison_verdict_->set(Tone::Neutral, {});
     } else {
       comparison_verdict_->show(Tone::Neutral,
-                                tr("P4 (7)–(10) as printed take every translation for a rotation of the head: here "
-                                   "they are off by up to %1 µrad. They are shown for comparison and not used.")
+                                tr("The closed forms take every translation for a rotation of the head: here they "
+                                   "are off by up to %1 µrad. They are shown for comparison and not used.")
                                     .arg(decimalText(off_urad, 'f', 1)));
     }
   }

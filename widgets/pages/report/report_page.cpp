@@ -65,7 +65,7 @@ ReportPage::ReportPage(PageContext page_context, QWidget* parent)
   auto* left = new Card(tr("Report"));
   left->body()->addWidget(makeLabel(tr("Operator"), "secondaryText"));
   operator_ = new QLineEdit;
-  operator_->setPlaceholderText(tr("Name, or empty to sign by hand"));
+  operator_->setPlaceholderText(tr("Name (empty: by hand)"));
   operator_->setAccessibleName(tr("Name of the operator"));
   left->body()->addWidget(operator_);
   connect(operator_, &QLineEdit::editingFinished, this, &ReportPage::keepOperator);
@@ -85,8 +85,6 @@ ReportPage::ReportPage(PageContext page_context, QWidget* parent)
   section_table_ =
       makeTable(sections_, tr("Sections of the report"), tr("Sections appear when the report is written."));
   stretchColumn(section_table_, 0);
-  section_table_->setWordWrap(true);  // titles of some languages are long
-  section_table_->verticalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
   left->body()->addWidget(section_table_, 1);
 
   auto* work = new QWidget;

@@ -208,8 +208,7 @@ void ProfilerCalibrationPage::showScans(const ScanEvaluation& evaluation) {
     }
   }
   registrations_->setRows(std::move(rows));
-  scans_->set(QString::number(compared),
-              tr("scan model %1").arg(fromCore(std::string(toString(evaluation.scan_model)))));
+  scans_->set(QString::number(compared), tr("scan model %1").arg(coreSentence(printedName(evaluation.scan_model))));
   rows.clear();
   for (const RejectedCapture& r : evaluation.rejected) {
     Row row;

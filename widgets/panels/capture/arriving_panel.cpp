@@ -78,11 +78,10 @@ ArrivingPanel::ArrivingPanel(PageContext page_context, Instrument instrument, QW
   rows_ = new RowsModel({tr("File"), tr("State"), tr("Capture"), tr("What was found")}, this);
   table_ = makeTable(rows_, tr("Files that arrived"), tr("Files appear here as they arrive in the watched folder."));
   table_->setIconSize(thumbnail_size);
-  table_->verticalHeader()->setDefaultSectionSize(56);
-  // Name and finding share what is left; a finding stands in up to three lines.
+  table_->verticalHeader()->setMinimumSectionSize(56);
+  // Name and finding share what is left; both in as many lines as they need.
   stretchColumn(table_, 3);
   table_->horizontalHeader()->setSectionResizeMode(0, QHeaderView::Stretch);
-  table_->setWordWrap(true);
   arrived_->body()->addWidget(table_, 1);
   touch_card_ = new Card(tr("Touches as they come in"));
   touches_ = new LiveTouchPanel(context_.session);

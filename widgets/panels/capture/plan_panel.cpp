@@ -43,10 +43,7 @@ PlanPanel::PlanPanel(PageContext page_context, Instrument instrument, QWidget* p
   column->addWidget(next_);
   rows_ = new RowsModel({tr("Capture"), tr("Due / min"), tr("State"), tr("What to do")}, this);
   table_ = makeTable(rows_, tr("Measurement plan"), tr("Make a plan: it says what to measure next and when."));
-  // What to do stands in two lines where one is too narrow.
   stretchColumn(table_, 3);
-  table_->setWordWrap(true);
-  table_->verticalHeader()->setDefaultSectionSize(44);
   column->addWidget(table_, 1);
   auto* line = new QHBoxLayout;
   states_ = new QSpinBox;

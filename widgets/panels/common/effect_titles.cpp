@@ -16,6 +16,7 @@
 #include "core/reporting/discrepancy_report.h"
 #include "core/reporting/report_wording.h"
 #include "widgets/common/core_sentence.h"
+#include "widgets/common/parts.h"
 #include "widgets/common/words.h"
 #include "widgets/plots/plot.h"
 #include "widgets/theme/numbers.h"
@@ -115,7 +116,7 @@ QString sizeText(double value, const QString& unit) {
 }
 
 QString probabilityText(double p) {
-  return coreSentence(probabilityInWords(p));
+  return shownNumbers(QString::fromStdString(spindrift::probabilityText(p)));
 }
 
 QString percentOf(double probability) {
@@ -206,6 +207,7 @@ void stretchColumn(QTableView* table, int column) {
   table->horizontalHeader()->setMinimumSectionSize(40);
   table->horizontalHeader()->setSectionResizeMode(column, QHeaderView::Stretch);
   table->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  wrapCells(table);
 }
 
 }  // namespace spindrift::gui

@@ -15,6 +15,7 @@
 #include "core/base/text.h"
 #include "widgets/common/editor_table.h"
 #include "widgets/common/parts.h"
+#include "widgets/common/words.h"
 #include "widgets/panels/common/effect_titles.h"
 #include "widgets/theme/numbers.h"
 
@@ -259,7 +260,7 @@ void EffectEditor::addGain(const nlohmann::json& column) {
   head->addWidget(makeLabel(tr("Gain %1").arg(number + 1), "sectionTitle"));
   head->addStretch(1);
   head->addWidget(new QLabel(tr("Unit")));
-  gain.unit = new QLineEdit(textOf(column, "gain_unit"));
+  gain.unit = new QLineEdit(unitText(textOf(column, "gain_unit").toStdString()));
   gain.unit->setAccessibleName(tr("Unit of gain %1").arg(number + 1));
   gain.unit->setPlaceholderText(QStringLiteral("um"));
   gain.unit->setToolTip(tr("Of the gain alone, as it is written in results: um, urad, um_per_m"));
@@ -327,7 +328,7 @@ void EffectEditor::rebuildGains(const nlohmann::json& shape) {
 nlohmann::json EffectEditor::shapeJson() const {
   nlohmann::json shape = nlohmann::json::array();
   for (const Gain& gain : gains_) {
-    nlohmann::json column{{"gain_unit", trimmed(gain.unit->text())}};
+    nlohmann::json column{{"gain_unit", trimmed(fileUnit(gain.unit->text()))}};
     for (const Component c : all_components) {
       const std::string text = trimmed(gain.expression[static_cast<std::size_t>(c)]->text());
       if (!text.empty()) column[std::string(toString(c))] = text;

@@ -21,7 +21,8 @@ constexpr int lines_along = 8;  ///< spaces between lines of the grid
 constexpr int samples_along = 96;
 constexpr double view_name_px = 20;  ///< name of a view
 constexpr double axes_px = 24;       ///< at the left and below
-constexpr double foot_px = 36;       ///< legend below the views
+constexpr double scale_px = 36;      ///< colours of a legend with their numbers
+constexpr double unit_px = 32;       ///< the unit behind them
 constexpr double legend_px = 150;    ///< least width of a legend beside them
 constexpr double default_travel_mm = 500.0;
 constexpr double least_length = 0.3;  ///< of the longest axis, as drawn
@@ -226,7 +227,32 @@ struct EffectPicture::Layout {
   bool beside = false;  ///< the legend has the corner that a drawing leaves free
 };
 
+namespace {
+
+QString legendWords(bool rotations, const QString& gain_unit, double largest) {
+  const QString unit = rotations ? QStringLiteral("urad") : QStringLiteral("um");
+  return (rotations ? EffectPicture::tr("Rotation of the tool for a gain of 1 %1, as vectors: at most %2.")
+                    : EffectPicture::tr("Deviation of the tool for a gain of 1 %1, drawn exaggerated: at most %2."))
+      .arg(gain_unit, sizeText(largest, unit).replace(QLatin1Char(' '), QChar(QChar::Nbsp)));
+}
+
+double scaleWidth(double width) {
+  return std::min(160.0, 0.3 * width);
+}
+
+/// Of the words of a legend below the views, beside its scale.
+double wordsWidth(double width) {
+  return width - scaleWidth(width) - unit_px - 24;
+}
+
+}  // namespace
+
 EffectPicture::Layout EffectPicture::layoutFor(const QSize& size) const {
+  const double words = QFontMetricsF(textFont(sizes::font_secondary))
+                           .boundingRect(QRectF(0, 0, wordsWidth(size.width()), 1000), Qt::TextWordWrap,
+                                         legendWords(rotations_, unit_, largest_))
+                           .height();
+  const double foot_px = std::max(scale_px, words + 4);
   const auto length = [this](int axis) {
     const auto& range = range_mm_[static_cast<std::size_t>(axis)];
     return (range[1] - range[0]) * stretch_[static_cast<std::size_t>(axis)];
@@ -407,23 +433,19 @@ void EffectPicture::paint(QPainter& painter, const QSize& size) const {
 }
 
 void EffectPicture::paintLegend(QPainter& painter, const QRectF& area, bool beside) const {
-  const QString unit = rotations_ ? QStringLiteral("urad") : QStringLiteral("um");
-  const QString words = (rotations_ ? tr("Rotation of the tool for a gain of 1 %1, as vectors: at most %2.")
-                                    : tr("Deviation of the tool for a gain of 1 %1, drawn exaggerated: at most %2."))
-                            .arg(unit_, sizeText(largest_, unit).replace(QLatin1Char(' '), QChar(QChar::Nbsp)));
-  constexpr double unit_width = 32;
-  const double bar = std::min(160.0, beside ? area.width() - 2 * unit_width : 0.3 * area.width());
-  const QRectF text = beside ? QRectF(area.left(), area.top(), area.width(), area.height() - foot_px)
-                             : QRectF(4, area.top() + 2, area.width() - bar - 80, area.height() - 2);
+  const double bar = beside ? std::min(160.0, area.width() - 2 * unit_px) : scaleWidth(area.width());
+  const QRectF text = beside ? QRectF(area.left(), area.top(), area.width(), area.height() - scale_px)
+                             : QRectF(4, area.top() + 2, wordsWidth(area.width()), area.height() - 2);
   painter.setPen(theme().text_secondary);
   painter.setFont(textFont(sizes::font_secondary));
   QRectF used;
-  painter.drawText(text, Qt::AlignLeft | Qt::AlignTop | Qt::TextWordWrap, words, &used);
+  painter.drawText(text, Qt::AlignLeft | Qt::AlignTop | Qt::TextWordWrap, legendWords(rotations_, unit_, largest_),
+                   &used);
   const QPointF at =
-      beside ? QPointF(area.left() + 12, used.bottom() + 12) : QPointF(area.right() - bar - unit_width, area.top() + 6);
-  paintScale(painter, QRectF(at, QSizeF(bar, foot_px - 6)));
-  painter.drawText(QRectF(at.x() + bar + 6, at.y() - 4, unit_width, 16), Qt::AlignLeft | Qt::AlignVCenter,
-                   unitText(unit.toStdString()));
+      beside ? QPointF(area.left() + 12, used.bottom() + 12) : QPointF(area.right() - bar - unit_px, area.top() + 6);
+  paintScale(painter, QRectF(at, QSizeF(bar, scale_px - 6)));
+  painter.drawText(QRectF(at.x() + bar + 6, at.y() - 4, unit_px, 16), Qt::AlignLeft | Qt::AlignVCenter,
+                   unitText(rotations_ ? "urad" : "um"));
 }
 
 void EffectPicture::paintEvent(QPaintEvent*) {

@@ -50,9 +50,6 @@ NextPanel::NextPanel(QWidget* parent) : QWidget(parent) {
   // Names and reasons share the width and stand in as many lines as they need; there are few steps.
   stretchColumn(steps, 3);
   steps->horizontalHeader()->setSectionResizeMode(0, QHeaderView::Stretch);
-  steps->verticalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
-  steps->verticalHeader()->setMinimumSectionSize(56);
-  steps->setWordWrap(true);
   right->body()->addWidget(steps, 1);
   warnings_ = makeLabel({}, "secondaryText");
   warnings_->setWordWrap(true);

@@ -61,8 +61,6 @@ ParameterCard::ParameterCard(QWidget* parent) : Card(tr("Parameters"), parent) {
   rows_ = new RowsModel({}, this);
   table_ = makeTable(rows_, tr("Parameters of the simulator"),
                      tr("Choose simulator.json: the parameters of the simulation appear here."));
-  table_->setWordWrap(true);
-  table_->verticalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
   body()->addWidget(table_, 1);
   showChoice({}, nullptr);
   stretchColumn(table_, column_what);

@@ -67,7 +67,7 @@ ArtefactFields::ArtefactFields(QWidget* parent) : QWidget(parent) {
   addField(form, 0, 0, tr("Name"), "id", 1, tr("As the touches name it"));
   addField(form, 0, 1, tr("Serial number"), "serial_number", 1, tr("Goes into the report"));
   addField(form, 1, 0, tr("Material"), "material", 1, tr("Goes into the report"));
-  addField(form, 1, 1, tr("Expansion / µm/m/K"), "expansion_um_per_m_K", 1, tr("Steel 11.5, Invar 1.2"));
+  addField(form, 1, 1, tr("Expansion / (µm/(m·K))"), "expansion_um_per_m_K", 1, tr("Steel 11.5, Invar 1.2"));
   addField(form, 2, 0, tr("Temperature / °C"), "temperature_degC", 1, tr("Of the artefact, where no sensor says it"));
   addField(form, 2, 1, tr("Certificate ± / µm"), "certificate_uncertainty_um", 1,
            tr("Standard uncertainty of a certified position"));

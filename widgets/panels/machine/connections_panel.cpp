@@ -58,7 +58,8 @@ ConnectionsPanel::ConnectionsPanel(PageContext page_context, QWidget* parent)
   auto* line = new QHBoxLayout;
   address_ = new QLineEdit;
   address_->setAccessibleName(tr("Address of a source"));
-  address_->setPlaceholderText(
+  address_->setPlaceholderText(tr("http://…, mqtt://… or other"));
+  address_->setToolTip(
       tr("http://… (MTConnect), mqtt://…, modbus://…, serial:///dev/…, tcp://…, "
          "linuxcnc://… or genicam:…"));
   address_->setMinimumHeight(sizes::control_height);

@@ -18,7 +18,7 @@ constexpr std::size_t most_items_shown = 2000;
 
 ItemsCard::ItemsCard(QWidget* parent) : Card(tr("What is there"), parent) {
   filter_ = new QLineEdit;
-  filter_->setPlaceholderText(tr("Filter, or an address"));
+  filter_->setPlaceholderText(tr("Filter"));
   filter_->setToolTip(
       tr("Shows the data items that have this in their names. What cannot be listed (a register, a topic, a "
          "place in a line) is added by its address."));
