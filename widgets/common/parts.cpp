@@ -234,15 +234,15 @@ NumberTile::NumberTile(const QString& name, QWidget* parent) : QFrame(parent) {
   column->addWidget(makeLabel(name, "secondaryText"));
   value_ = makeLabel(QStringLiteral("–"), "bigNumber");
   value_->setTextInteractionFlags(Qt::TextSelectableByMouse);
-  note_ = makeLabel({}, "secondaryText");
-  note_->setWordWrap(true);
+  note_ = new WrappedLabel;
+  note_->setProperty("role", QStringLiteral("secondaryText"));
   column->addWidget(value_);
   column->addWidget(note_);
 }
 
 void NumberTile::set(const QString& value, const QString& note, Tone tone) {
   value_->setText(value);
-  note_->setText(note);
+  static_cast<WrappedLabel*>(note_)->setText(note);
   note_->setVisible(!note.isEmpty());
   const QColor wanted = tone == Tone::Neutral ? theme().text : theme().tone(tone);
   QPalette colours = value_->palette();
@@ -553,10 +553,25 @@ class Tabs : public QTabWidget {
   bool event(QEvent* event) override {
     const bool handled = QTabWidget::event(event);
     if (event->type() == QEvent::LayoutRequest) updateGeometry();
+    if (event->type() == QEvent::LayoutRequest || event->type() == QEvent::Resize) fitTitles();
     return handled;
   }
 
  private:
+  /// Titles stand closer where all of them have no room otherwise.
+  void fitTitles() {
+    constexpr int saved = 22;  // of the style sheet, a tab
+    const bool narrow = tabBar()->property("narrow").toBool();
+    int wide = 0;
+    for (int i = 0; i < count(); ++i) {
+      if (isTabVisible(i)) wide += tabBar()->tabRect(i).width() + (narrow ? saved : 0);
+    }
+    if (narrow == (wide > width())) return;
+    tabBar()->setProperty("narrow", !narrow);
+    style()->unpolish(tabBar());
+    style()->polish(tabBar());
+    tabBar()->updateGeometry();
+  }
   static int leastHeight(const QWidget& page) {
     const int asked = page.minimumHeight() > 0 ? page.minimumHeight() : page.minimumSizeHint().height();
     return std::max(0, asked);

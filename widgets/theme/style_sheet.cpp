@@ -109,6 +109,7 @@ QTabBar::tear { width: 0; border: none; image: none; }
 QTabBar QToolButton { min-width: 26px; max-width: 26px; border: none; border-radius: 4px; }
 QTabBar::tab { background: transparent; color: @text_secondary@; border: none; border-bottom: 3px solid transparent; padding: 0 16px;
   min-height: 37px; }
+QTabBar[narrow="true"]::tab { padding: 0 5px; }
 QTabBar::tab:hover { color: @text@; }
 QTabBar::tab:selected { color: @text@; border-bottom: 3px solid @accent@; font-weight: 600; }
 QTabBar::tab:focus { background: @accent_soft@; }
