@@ -7,6 +7,7 @@
 #include <QDir>
 #include <QElapsedTimer>
 #include <QFile>
+#include <QSettings>
 #include <QStandardPaths>
 #include <QTemporaryDir>
 #include <QTimer>
@@ -318,7 +319,8 @@ int run(int argc, char** argv) {
   if (parser.isSet(tour) || parser.isSet(self_test) || parser.isSet(start_time)) {
     QStandardPaths::setTestModeEnabled(true);
     QCoreApplication::setOrganizationName(QStringLiteral("spindrift-unattended"));
-    qputenv("SPINDRIFT_SESSIONS", scratch.path().toUtf8());
+    qputenv("SPINDRIFT_SESSIONS", scratch.filePath(QStringLiteral("sessions")).toUtf8());
+    QSettings::setPath(QSettings::NativeFormat, QSettings::UserScope, scratch.filePath(QStringLiteral("settings")));
   }
   const QString data = QStandardPaths::writableLocation(QStandardPaths::AppDataLocation);
   if (!data.isEmpty()) spindrift::startLogFile((data + QStringLiteral("/spindrift.log")).toStdString());

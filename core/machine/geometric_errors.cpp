@@ -49,7 +49,7 @@ GeometricErrors::GeometricErrors(const MachineDescription& machine) : machine_(m
         std::tuple{"EB0Z_urad", Component::EB, 'Z', 'X'}}) {
     for (const std::size_t i : linear) {
       const bool other = std::any_of(linear.begin(), linear.end(),
-                                     [&](std::size_t j) { return machine_.axes[j].name.front() == base; });
+                                     [&, base = base](std::size_t j) { return machine_.axes[j].name.front() == base; });
       if (machine_.axes[i].name.front() == moving && other)
         add(name, {machine_.axes[i].name, i, direction, Law::Square});
     }

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "widgets/shell/tour.h"
 
+#include <QAbstractEventDispatcher>
 #include <QDir>
 #include <QDoubleSpinBox>
 #include <QElapsedTimer>
 #include <QEventLoop>
 #include <QTabWidget>
 #include <QTemporaryDir>
+#include <QThread>
 #include <QTimer>
 #include <algorithm>
 #include <vector>
@@ -49,10 +51,13 @@ bool shows(const TourStop& stop, StepId step) {
   return std::find(stop.steps.begin(), stop.steps.end(), step) != stop.steps.end();
 }
 
+/// Time passes, and then nothing that was put off until the program is idle (layouts, plots) is left: on a loaded
+/// computer the time alone is over before any of it is done.
 void settle(int ms) {
   QEventLoop loop;
   QTimer::singleShot(ms, &loop, &QEventLoop::quit);
   loop.exec();
+  finishWhatWasPutOff();
 }
 
 /// The report of the page that is shown, in each of its formats.
@@ -96,6 +101,15 @@ void shootDesigner(const QString& file, TourResult& result) {
 }
 
 }  // namespace
+
+void finishWhatWasPutOff() {
+  constexpr int most_ms = 2000;
+  QElapsedTimer timer;
+  timer.start();
+  while (QThread::currentThread()->eventDispatcher()->processEvents(QEventLoop::AllEvents) &&
+         timer.elapsed() < most_ms) {
+  }
+}
 
 bool settled(MainWindow& window) {
   return !window.arriving() && !window.jobs().busy() && !viewsBusy(window);

@@ -23,6 +23,9 @@ struct TourOptions {
 };
 
 [[nodiscard]] TourResult runTour(MainWindow& window, const QString& folder, const TourOptions& options = {});
+/// Runs the event loop until it would wait: nothing is left that was put off until the program is idle, such as the
+/// layout of a page (at most 2 s).
+void finishWhatWasPutOff();
 /// No job is left, the page stands there complete, and nothing is drawn anew in the background.
 [[nodiscard]] bool settled(MainWindow& window);
 /// Runs the event loop until no job is left (and 3D views are finished), at most `seconds`. False: time is over.

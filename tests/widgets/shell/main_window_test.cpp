@@ -13,6 +13,7 @@
 #include <QTabWidget>
 #include <QTableWidget>
 #include <QTest>
+#include <QThread>
 #include <QTimer>
 
 #include "core/base/random.h"
@@ -374,6 +375,25 @@ TEST_F(MainWindowTest, JogsAreHeldAgainstTheResolution) {
   EXPECT_EQ(page->jogs()->verdict()->tone(), Tone::Attention);
   EXPECT_TRUE(page->jogs()->verdict()->sentence().startsWith(QStringLiteral("Not passed")))
       << page->jogs()->verdict()->sentence().toStdString();
+}
+
+TEST_F(MainWindowTest, WaitingForJobsWaitsForWhatALoadedComputerPutsOff) {
+  openEightPoints();
+  QTest::mouseClick(window_->stepList()->button(StepId::WarmUp), Qt::LeftButton);
+  ASSERT_TRUE(waitForJobs(*window_, 30));
+  QTest::qWait(300);
+  bool laid_out = false;
+  // As views of rows do it: when nothing else is left.
+  QTimer first;
+  QTimer second;
+  for (QTimer* idle : {&first, &second}) idle->setSingleShot(true);
+  QObject::connect(&first, &QTimer::timeout, [&] { second.start(0); });
+  QObject::connect(&second, &QTimer::timeout, [&] { laid_out = true; });
+  first.start(0);
+  // The computer is busy elsewhere: every time is over before that.
+  QTimer::singleShot(0, [] { QThread::msleep(100); });
+  ASSERT_TRUE(waitForJobs(*window_, 30));
+  EXPECT_TRUE(laid_out);
 }
 
 TEST_F(MainWindowTest, ThemeSwitches) {

@@ -8,6 +8,7 @@
 #include <QCheckBox>
 #include <QComboBox>
 #include <QDialog>
+#include <QDir>
 #include <QDoubleSpinBox>
 #include <QLineEdit>
 #include <QMessageBox>
@@ -283,6 +284,10 @@ TEST_F(PreferencesTest, WhatCannotBeReadHasItsDefault) {
   EXPECT_EQ(preferences(), all);
   setPreferences({});
   EXPECT_EQ(preferences(), Preferences());
+}
+
+TEST_F(PreferencesTest, WhatIsKeptInATestIsKeptByThisRunAlone) {
+  EXPECT_TRUE(QSettings().fileName().startsWith(QDir::tempPath())) << QSettings().fileName().toStdString();
 }
 
 TEST_F(PreferencesTest, TheFolderOfTheLastExportIsOfferedAgain) {

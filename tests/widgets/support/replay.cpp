@@ -72,6 +72,7 @@ void Replay::next() {
     done_();
     return;
   }
+  if (!doing_) finishWhatWasPutOff();
   if (!settled(window_) || (doing_ && inFront() == in_front_)) {
     QTimer::singleShot(between_ms, this, &Replay::next);
     return;

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <QApplication>
+#include <QSettings>
 #include <QStandardPaths>
 #include <QTemporaryDir>
 #include <clocale>
@@ -13,9 +14,11 @@ int main(int argc, char** argv) {
   QApplication application(argc, argv);
   QCoreApplication::setOrganizationName(QStringLiteral("spindrift-test"));
   QStandardPaths::setTestModeEnabled(true);
-  // Test mode leaves the documents folder as it is: sessions would stay there.
-  const QTemporaryDir sessions;
-  qputenv("SPINDRIFT_SESSIONS", sessions.path().toUtf8());
+  // Test mode leaves the documents folder as it is: sessions would stay there. It keeps settings by the name of the
+  // program, and another run of the same one at the same time would write into them.
+  const QTemporaryDir scratch;
+  qputenv("SPINDRIFT_SESSIONS", scratch.filePath(QStringLiteral("sessions")).toUtf8());
+  QSettings::setPath(QSettings::NativeFormat, QSettings::UserScope, scratch.filePath(QStringLiteral("settings")));
   std::setlocale(LC_ALL, "C");
   spindrift::gui::applyTheme(application, spindrift::gui::ThemeKind::Light);
   ::testing::InitGoogleTest(&argc, argv);
