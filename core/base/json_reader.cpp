@@ -65,6 +65,13 @@ JsonNode JsonNode::parse(std::string_view text, const std::filesystem::path& nam
     const nlohmann::json* root = document.get();
     return {std::move(document), std::make_shared<const std::filesystem::path>(name), root, "$"};
   } catch (const nlohmann::json::parse_error& error) {
+    if (const std::size_t bad = firstInvalidUtf8(text); bad < error.byte) {
+      throw InputError(
+          placeOfByte(text, bad + 1, name),
+          fmt::format("is not valid JSON here: the byte 0x{:02X} is not UTF-8 (Latin-1, perhaps); allowed: "
+                      "JSON in UTF-8.",
+                      static_cast<unsigned>(static_cast<unsigned char>(text[bad]))));
+    }
     throw InputError(placeOfByte(text, error.byte, name), "is not valid JSON here; allowed: JSON (RFC 8259), no NaN.");
   } catch (const nlohmann::json::exception& error) {
     throw InputError({name, ""}, fmt::format("is not valid JSON ({}).", error.what()));

@@ -51,14 +51,16 @@ Campaign Campaign::read(const std::filesystem::path& folder) {
   }
   Campaign campaign;
   campaign.folder = folder;
-  const JsonNode root = JsonNode::read(folder / "campaign.json");
+  InsideFolder inside(folder);
+  // A link to a file elsewhere is not followed: what came with the campaign would be shown and copied.
+  const auto own = [&](const char* name) { return inside.path(name, {folder, ""}); };
+  const JsonNode root = JsonNode::read(own("campaign.json"));
   root.requireFormat("spindrift-campaign", 1);
   campaign.name = root.at("name").name();
   const JsonNode start = root.at("start_utc");
   campaign.start_utc = start.string();
   if (!isUtc(campaign.start_utc)) start.reject("a UTC time such as \"2026-01-31T08:00:00Z\"");
   // What the file names lies in the campaign, whoever wrote it.
-  InsideFolder inside(folder);
   for (const char* key : {"simulation", "effects", "simulator"}) {
     if (const auto named = root.find(key); named && !named->string().empty())
       (void)inside.path(named->string(), named->place());
@@ -72,18 +74,19 @@ Campaign Campaign::read(const std::filesystem::path& folder) {
   }
   if (const auto effects = root.find("effects")) campaign.effects = effects->name();
   if (const auto simulator = root.find("simulator")) campaign.simulator = simulator->name();
-  campaign.machine = MachineDescription::read(folder / "machine.json");
-  if (std::filesystem::exists(folder / "log.csv") && !hasJustBegun(folder / "log.csv"))
-    campaign.log = OperatingLog::read(folder / "log.csv");
-  if (std::filesystem::exists(folder / "observations.csv")) {
-    campaign.observations = ObservationSet::read(folder / "observations.csv");
+  campaign.machine = MachineDescription::read(own("machine.json"));
+  if (const std::filesystem::path log = own("log.csv"); std::filesystem::exists(log) && !hasJustBegun(log))
+    campaign.log = OperatingLog::read(log);
+  (void)own("observations.cov.csv");
+  if (const std::filesystem::path observations = own("observations.csv"); std::filesystem::exists(observations)) {
+    campaign.observations = ObservationSet::read(observations);
     campaign.observations->absolute = campaign.absolute;
   }
   return campaign;
 }
 
 std::optional<std::filesystem::path> Campaign::captureList(std::string_view file_name) const {
-  const std::filesystem::path file = folder / "captures" / file_name;
+  const std::filesystem::path file = InsideFolder(folder).path(fmt::format("captures/{}", file_name), {folder, ""});
   return std::filesystem::exists(file) ? std::optional(file) : std::nullopt;
 }
 

@@ -135,6 +135,21 @@ PointCloud masked(const PointCloud& cloud, const CloudMask& keep) {
   return out;
 }
 
+/// About 1,000 of the points lie on one straight line, to a millionth of its length.
+bool isStraightLine(const PointCloud& cloud) {
+  const std::size_t stride = cloud.size() / 1000 + 1;
+  const Eigen::Vector3d& first = cloud.points_mm.front();
+  Eigen::Vector3d along = Eigen::Vector3d::Zero();
+  for (std::size_t i = 0; i < cloud.size(); i += stride) {
+    const Eigen::Vector3d d = cloud.points_mm[i] - first;
+    if (d.squaredNorm() > along.squaredNorm()) along = d;
+  }
+  const double length = along.norm();
+  for (std::size_t i = 0; i < cloud.size(); i += stride)
+    if (along.cross(cloud.points_mm[i] - first).norm() > 1e-6 * length * length) return false;
+  return true;
+}
+
 void requireUsableCloud(const PointCloud& cloud, std::size_t least_points) {
   if (cloud.empty()) throw InputError(fmt::format("{} holds no points.", label(cloud)));
   if (cloud.size() < least_points)
@@ -150,9 +165,11 @@ void requireUsableCloud(const PointCloud& cloud, std::size_t least_points) {
   const Eigen::Vector3d size = e.high - e.low;
   if (!(std::max(size.x(), size.y()) > 0.0))
     throw InputError(fmt::format("{} has no extent in x and y: all points lie at one place.", label(cloud)));
+  if (isStraightLine(cloud))
+    throw InputError(fmt::format("{} is a straight line: its points determine no surface.", label(cloud)));
   const double width = std::max(size.x(), size.y());
   if (width > 2000.0)
-    throw InputError(fmt::format("{} is {:.0f} wide, which is implausible in mm: the unit seems to be µm; allowed: mm.",
+    throw InputError(fmt::format("{} is {:.4g} wide, which is implausible in mm: the unit seems to be µm; allowed: mm.",
                                  label(cloud), width));
   if (width < 0.2)
     throw InputError(fmt::format("{} is {:.2g} wide, which is implausible in mm: the unit seems to be m; allowed: mm.",

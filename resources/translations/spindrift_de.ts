@@ -7792,10 +7792,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>{} wird wieder geschrieben.</translation>
     </message>
     <message>
-        <source>{} is {:.0f} wide, which is implausible in mm: the unit seems to be µm; allowed: mm.</source>
-        <translation>{} ist {:.0f} breit, was in mm unplausibel ist: die Einheit ist anscheinend µm; zulässig: mm.</translation>
-    </message>
-    <message>
         <source>{} is {:.2g} wide, which is implausible in mm: the unit seems to be m; allowed: mm.</source>
         <translation>{} ist {:.2g} breit, was in mm unplausibel ist: die Einheit ist anscheinend m; zulässig: mm.</translation>
     </message>
@@ -9512,6 +9508,18 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>γ about Z</source>
         <translation>γ um Z</translation>
+    </message>
+    <message>
+        <source>is not valid JSON here: the byte 0x{:02X} is not UTF-8 (Latin-1, perhaps); allowed: JSON in UTF-8.</source>
+        <translation>ist hier kein gültiges JSON: das Byte 0x{:02X} ist kein UTF-8 (vielleicht Latin-1); zulässig: JSON in UTF-8.</translation>
+    </message>
+    <message>
+        <source>{} is a straight line: its points determine no surface.</source>
+        <translation>{} ist eine gerade Linie: ihre Punkte bestimmen keine Fläche.</translation>
+    </message>
+    <message>
+        <source>{} is {:.4g} wide, which is implausible in mm: the unit seems to be µm; allowed: mm.</source>
+        <translation>{} ist {:.4g} breit, was in mm unplausibel ist: die Einheit ist anscheinend µm; zulässig: mm.</translation>
     </message>
 </context>
 <context>

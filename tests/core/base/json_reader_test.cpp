@@ -43,7 +43,9 @@ TEST(JsonReader, PointsAtTheLineOfASyntaxError) {
 TEST(JsonReader, RefusesBytesThatAreNoUtf8AndSaysWhere) {
   for (const std::string bad : {"\xe4", "\xc3", "\xed\xa0\x80", "\xff"})
     for (const std::string& text : {"{\n\"a\": \"" + bad + "\"}", "{\n\"" + bad + "\": 1}", "{\n" + bad + "}"})
-      EXPECT_THAT(jsonComplaint(text), AllOf(HasSubstr("line 2"), HasSubstr("not valid JSON")));
+      EXPECT_THAT(jsonComplaint(text),
+                  AllOf(HasSubstr("line 2"), HasSubstr("not valid JSON"), HasSubstr("is not UTF-8")));
+  EXPECT_THAT(jsonComplaint("{\"name\": \"m\xfchle\"}"), HasSubstr("the byte 0xFC is not UTF-8 (Latin-1, perhaps)"));
 }
 
 TEST(JsonReader, RefusesADuplicateKeyAtAnyDepth) {

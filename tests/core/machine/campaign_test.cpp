@@ -8,6 +8,7 @@
 namespace spindrift {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 constexpr const char* machine_text =
@@ -46,6 +47,33 @@ TEST(Campaign, ALogWhoseRecordingHasJustBegunIsNoneYet) {
   // One that nobody records has lost its rows.
   folder.write("log.csv", "time_s,spindle_rpm\n");
   EXPECT_THROW((void)Campaign::read(folder.path()), InputError);
+}
+
+TEST(Campaign, ALinkToAFileElsewhereIsNotFollowed) {
+  const testing::TempFolder folder;
+  folder.write("mine/secret.csv", "time_s,spindle_rpm\n0,0\n");
+  for (const std::string name :
+       {"log.csv", "machine.json", "campaign.json", "observations.csv", "observations.cov.csv"}) {
+    const std::filesystem::path campaign = folder / ("c_" + name);
+    folder.write("c_" + name + "/campaign.json",
+                 R"({"format":"spindrift-campaign","version":1,"name":"c","start_utc":"2026-01-31T08:00:00Z"})");
+    folder.write("c_" + name + "/machine.json", machine_text);
+    EXPECT_NO_THROW((void)Campaign::read(campaign)) << name;
+    std::filesystem::remove(campaign / name);
+    std::filesystem::create_symlink(folder / "mine/secret.csv", campaign / name);
+    try {
+      (void)Campaign::read(campaign);
+      ADD_FAILURE() << name << " was followed";
+    } catch (const InputError& error) {
+      EXPECT_THAT(error.what(), AllOf(HasSubstr(name), HasSubstr("by a link")));
+    }
+  }
+  folder.write("c/campaign.json",
+               R"({"format":"spindrift-campaign","version":1,"name":"c","start_utc":"2026-01-31T08:00:00Z"})");
+  folder.write("c/machine.json", machine_text);
+  folder.write("mine/touches.csv", "x\n");
+  std::filesystem::create_directory_symlink(folder / "mine", folder / "c/captures");
+  EXPECT_THROW((void)Campaign::read(folder / "c").captureList("touches.csv"), InputError);
 }
 
 TEST(Campaign, BadFilesAreNamed) {
