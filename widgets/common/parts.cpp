@@ -2,6 +2,7 @@
 #include "widgets/common/parts.h"
 
 #include <QButtonGroup>
+#include <QCoreApplication>
 #include <QEvent>
 #include <QHBoxLayout>
 #include <QHeaderView>
@@ -107,7 +108,7 @@ bool WrappedLabel::event(QEvent* event) {
 void WrappedLabel::keepLines() {
   if (!isVisible()) return;                      // its width is not yet known
   if (minimumHeight() > 0) setMinimumHeight(0);  // QLabel counts it in: a shorter text would stay as high
-  setMinimumHeight(heightForWidth(width()));
+  setMinimumHeight(std::max(0, heightForWidth(width())));
 }
 
 Callout::Callout(QWidget* parent) : QFrame(parent) {
@@ -570,7 +571,8 @@ class Tabs : public QTabWidget {
     tabBar()->setProperty("narrow", !narrow);
     style()->unpolish(tabBar());
     style()->polish(tabBar());
-    tabBar()->updateGeometry();
+    QEvent styled(QEvent::StyleChange);  // else it keeps the widths that it has
+    QCoreApplication::sendEvent(tabBar(), &styled);
   }
   static int leastHeight(const QWidget& page) {
     const int asked = page.minimumHeight() > 0 ? page.minimumHeight() : page.minimumSizeHint().height();
