@@ -122,7 +122,7 @@ void FiducialCapturePage::load() {
     const std::size_t spindle = table.column("spindle_deg");
     const std::size_t image = table.column("image");
     for (std::size_t r = 0; r < table.rowCount(); ++r) {
-      CaptureVerdict c;
+      ListedCapture c;
       c.image = QString::fromStdString(table.requiredText(r, image));
       c.state = QString::fromStdString(std::string(table.text(r, state)));
       c.fiducial = QString::fromStdString(table.requiredText(r, fiducial));
@@ -140,7 +140,7 @@ void FiducialCapturePage::load() {
     for (const auto& entry : stored->payload.at("captures")) {
       by_image[QString::fromStdString(entry.at("image").get<std::string>())] = &entry;
     }
-    for (CaptureVerdict& c : captures_) {
+    for (ListedCapture& c : captures_) {
       const auto found = by_image.find(c.image);
       if (found == by_image.end()) continue;
       const nlohmann::json& e = *found->second;
@@ -165,7 +165,7 @@ void FiducialCapturePage::refresh() {
   callout()->set(Tone::Neutral, {});
   load();
   QStringList states;
-  for (const CaptureVerdict& c : captures_) {
+  for (const ListedCapture& c : captures_) {
     if (!states.contains(c.state)) states << c.state;
   }
   const QString chosen = other ? QString() : state_filter_->currentData().toString();
@@ -176,12 +176,12 @@ void FiducialCapturePage::refresh() {
   fillTable();
   fillPlan();
 
-  std::vector<const CaptureVerdict*> bad;
-  for (const CaptureVerdict& c : captures_) {
+  std::vector<const ListedCapture*> bad;
+  for (const ListedCapture& c : captures_) {
     if (c.checked && !c.good && !session().excluded().contains(c.image)) bad.push_back(&c);
   }
   const auto unchecked =
-      std::count_if(captures_.begin(), captures_.end(), [](const CaptureVerdict& c) { return !c.checked; });
+      std::count_if(captures_.begin(), captures_.end(), [](const ListedCapture& c) { return !c.checked; });
   if (callout()->sentence().isEmpty()) {
     if (captures_.empty()) {
       callout()->show(Tone::Attention, tr("The campaign lists no captures yet."));
@@ -207,7 +207,7 @@ void FiducialCapturePage::refresh() {
 }
 
 void FiducialCapturePage::showComplete() {
-  const auto excluded = std::count_if(captures_.begin(), captures_.end(), [this](const CaptureVerdict& c) {
+  const auto excluded = std::count_if(captures_.begin(), captures_.end(), [this](const ListedCapture& c) {
     return session().excluded().contains(c.image);
   });
   QString text = excluded == 0
@@ -228,9 +228,9 @@ void FiducialCapturePage::showComplete() {
   callout()->show(lacking.isEmpty() ? Tone::Good : Tone::Attention, text);
 }
 
-void FiducialCapturePage::showBad(const std::vector<const CaptureVerdict*>& bad) {
+void FiducialCapturePage::showBad(const std::vector<const ListedCapture*>& bad) {
   QStringList names;
-  for (const CaptureVerdict* c : bad) {
+  for (const ListedCapture* c : bad) {
     names << tr("%1 in state %2, %3 %4").arg(c->fiducial, c->state, roleName(c->role)).arg(c->index);
   }
   callout()->setAction(tr("Show it"), [this, image = bad.front()->image] {
@@ -250,7 +250,7 @@ void FiducialCapturePage::showBad(const std::vector<const CaptureVerdict*>& bad)
 void FiducialCapturePage::fillTable() {
   std::vector<Row> rows;
   const QString state = state_filter_->currentData().toString();
-  for (const CaptureVerdict& c : captures_) {
+  for (const ListedCapture& c : captures_) {
     const bool excluded = session().excluded().contains(c.image);
     if (!state.isEmpty() && c.state != state) continue;
     switch (verdict_filter_->currentIndex()) {
@@ -304,7 +304,7 @@ void FiducialCapturePage::fillPlan() {
   std::vector<std::pair<QString, QString>> order;
   std::map<std::pair<QString, QString>, Count> counts;
   std::set<QString> with_axes;
-  for (const CaptureVerdict& c : captures_) {
+  for (const ListedCapture& c : captures_) {
     const auto key = std::make_pair(c.fiducial, c.state);
     if (!counts.contains(key)) order.push_back(key);
     Count& count = counts[key];
@@ -338,8 +338,8 @@ void FiducialCapturePage::fillPlan() {
   plan_->setRows(std::move(rows));
 }
 
-const CaptureVerdict* FiducialCapturePage::find(const QString& image) const {
-  for (const CaptureVerdict& c : captures_) {
+const ListedCapture* FiducialCapturePage::find(const QString& image) const {
+  for (const ListedCapture& c : captures_) {
     if (c.image == image) return &c;
   }
   return nullptr;
@@ -351,7 +351,7 @@ void FiducialCapturePage::select(const QString& image) {
 }
 
 void FiducialCapturePage::showImage(const QString& image) {
-  const CaptureVerdict* capture = find(image);
+  const ListedCapture* capture = find(image);
   if (capture == nullptr) return;
   const bool same = shown_ == image && !image_->empty();
   shown_ = image;
@@ -422,7 +422,7 @@ void FiducialCapturePage::offerExclusion() {
 }
 
 void FiducialCapturePage::toggleExcluded() {
-  const CaptureVerdict* capture = chosen().size() == 1 ? find(chosen().front()) : nullptr;
+  const ListedCapture* capture = chosen().size() == 1 ? find(chosen().front()) : nullptr;
   excludeOrBringBack(context(), this, chosen(),
                      capture != nullptr && capture->checked && !capture->good ? capture->sentence : tr("disturbed"));
 }

@@ -16,7 +16,7 @@ class RowsModel;
 class Badge;
 
 /// One row of captures/fiducials.csv as the page shows it, and what the check found.
-struct CaptureVerdict {
+struct ListedCapture {
   QString image;  ///< path relative to the campaign
   QString state;
   QString fiducial;
@@ -52,15 +52,15 @@ class FiducialCapturePage : public Page {
   /// All are good: says what is excluded, and where too few are left.
   void showComplete();
   /// Says which captures are bad, with a button that goes to the first.
-  void showBad(const std::vector<const CaptureVerdict*>& bad);
+  void showBad(const std::vector<const ListedCapture*>& bad);
   void showImage(const QString& image);
   /// The captures that are selected in the list, else the one that is shown.
   [[nodiscard]] QStringList chosen() const;
   void offerExclusion();
   void toggleExcluded();
-  [[nodiscard]] const CaptureVerdict* find(const QString& image) const;
+  [[nodiscard]] const ListedCapture* find(const QString& image) const;
 
-  std::vector<CaptureVerdict> captures_;
+  std::vector<ListedCapture> captures_;
   QPushButton* check_;
   QComboBox* state_filter_;
   QComboBox* verdict_filter_;

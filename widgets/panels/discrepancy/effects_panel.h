@@ -12,6 +12,7 @@
 #include <optional>
 #include <string>
 
+#include "core/tasks/campaign_state.h"
 #include "core/tasks/task_options.h"
 #include "core/workflows/discrepancy_workflow.h"
 #include "widgets/commands/draft.h"
