@@ -89,7 +89,14 @@ std::string manOption(const ProgramOption& option) {
     if (!names.empty()) names += ", ";
     names += "\\fB" + troff(name) + "\\fR";
   }
-  if (const std::string value = valueOf(option); !value.empty()) names += " \\fI" + troff(value) + "\\fR";
+  if (const std::string value = valueOf(option); !value.empty()) {
+    names += " \\fI";
+    for (const char c : troff(value)) {
+      names += c;
+      if (c == '|') names += "\\:";  // many allowed words have no room in one line: it may end after each
+    }
+    names += "\\fR";
+  }
   if (option.required) names += " (required)";
   return ".TP\n" + names + "\n" + troff(inOneLine(option.description)) + "\n";
 }

@@ -24,10 +24,8 @@ constexpr double least_rival = 0.1;
 constexpr double least_confidence = 0.6;
 /// 2 ln of the odds beyond which a remainder is told: "very strong" (Kass and Raftery 1995).
 constexpr double remainder_evidence = 10.0;
-/// An effect of the catalogue is more probable, before any data, than a cause that nobody thought of: odds 10 to 1; and
-/// the remainder that stands for such a cause is made as large as it has to be, which its evidence does not pay for: a
-/// factor of 3.
-constexpr double unknown_price = 6.8;
+/// An effect of the catalogue is more probable, before any data, than a cause that nobody thought of: odds 10 to 1.
+constexpr double unknown_price = 4.6;
 /// In 2 ln: every further effect in one component is so much less probable than one cause that nobody thought of.
 constexpr double further_price = 20.0;
 /// rms of what is held out with an effect over that without it, from which on it is taken back.

@@ -33,7 +33,7 @@ TEST(ProgramReference, ManPageIsWhatIsMeant) {
   EXPECT_THAT(page, HasSubstr("\n\\&.first line\n.PP\nsecond line\n"));
   EXPECT_THAT(page, HasSubstr("Measure a\\(rsb and <c>"));
   EXPECT_THAT(page, HasSubstr("small\\-one measure \\-\\-kind one|it's two [OPTION ...] FOLDER"));
-  EXPECT_THAT(page, HasSubstr("\\fB\\-\\-kind\\fR \\fIone|it's two\\fR (required)"));
+  EXPECT_THAT(page, HasSubstr("\\fB\\-\\-kind\\fR \\fIone|\\:it's two\\fR (required)"));
   EXPECT_THAT(page, HasSubstr("\\fBother\\fR(1)"));
 }
 

@@ -186,7 +186,7 @@ TEST(NineParameterModel, ThreePointsOnALineNameWhatIsNotDetermined) {
   addState(set, "M1", line, truth, constants, 0.3, 0.8, random, false);
   const NineParameterFit fit = fitNineParameters(set, {.state = "M1", .points = {}});
   EXPECT_EQ(fit.status, FitStatus::Degenerate);
-  EXPECT_THAT(fit.message, HasSubstr("do not determine EX, EY, EZ, EA, EC0Y and alpha_Y;"));
+  EXPECT_THAT(fit.message, HasSubstr("do not determine EX, EY, EZ, EA, EC0Y and αY;"));
   for (const int i : {4, 5, 7}) {  // EB, EC, alphaX hold
     EXPECT_TRUE(fit.determined(i)) << i;
     EXPECT_NEAR(fit.parameters(i), truth(i), 1e-6);
