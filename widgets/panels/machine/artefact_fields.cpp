@@ -64,6 +64,10 @@ ArtefactFields::ArtefactFields(QWidget* parent) : QWidget(parent) {
   column->setContentsMargins(0, 0, 0, 0);
   auto* form = new QGridLayout;
   form->setSpacing(8);
+  for (const int title : {0, 2}) {  // titles have room for a line where the pane is wide
+    form->setColumnStretch(title, 2);
+    form->setColumnStretch(title + 1, 3);
+  }
   addField(form, 0, 0, tr("Name"), "id", 1, tr("As the touches name it"));
   addField(form, 0, 1, tr("Serial number"), "serial_number", 1, tr("Goes into the report"));
   addField(form, 1, 0, tr("Material"), "material", 1, tr("Goes into the report"));
