@@ -99,8 +99,7 @@ void addSessionCommands(CLI::App& app, CommandLine& line) {
                    "--campaign or the campaign opened last: evaluate the captures before a fit, fit before a "
                    "compensation; results that are still current are used again")
       ->type_name("TASK")
-      ->check(CLI::IsMember({"check", "evaluate", "fit", "thermal", "log-compensation", "discrepancy", "compensation",
-                             "verify", "report"}));
+      ->check(CLI::IsMember(tasksWithWork()));
 }
 
 }  // namespace spindrift::cli

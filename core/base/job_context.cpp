@@ -78,8 +78,8 @@ struct Loop {
 /// that are in it: what they wait for in turn is always further inside, so nesting cannot block.
 class Pool {
  public:
-  /// Never destroyed: its threads sleep when the process ends. A process that is forked off has none of them, and begins
-  /// with a pool of its own.
+  /// Never destroyed: its threads sleep when the process ends. A process that is forked off has none of them, and
+  /// begins with a pool of its own.
   static Pool& instance() {
     static const bool made = [] {
       current() = new Pool;

@@ -147,7 +147,7 @@ CampaignState CampaignState::read(const Session& session, std::int64_t wanted) {
   }
   applyClockOffsets(*campaign, clockOffsetsOf(session, record.id));
   state.campaign = std::move(campaign);
-  for (const Exclusion& e : session.exclusions(record.id)) state.excluded[e.item] = e.reason;
+  state.excluded = excludedItems(session, record.id);
   for (const std::string& kind : session.resultKinds(record.id))
     state.latest[kind] = session.latestResult(record.id, kind);
   if (const auto evaluation = state.latest.find("evaluate"); evaluation != state.latest.end())
@@ -166,6 +166,12 @@ TaskGraph CampaignState::tasks(const Session& session, const TaskLedger& ledger)
 
 ClockOffsets clockOffsetsOf(const Session& session, std::int64_t campaign) {
   return clockOffsetsFrom(session.setting(Session::clocksKey(campaign)).value_or(nlohmann::json::object()));
+}
+
+ExcludedItems excludedItems(const Session& session, std::int64_t campaign) {
+  ExcludedItems items;
+  for (const Exclusion& e : session.exclusions(campaign)) items[e.item] = e.reason;
+  return items;
 }
 
 std::shared_ptr<const Campaign> withoutExcluded(const Campaign& campaign, const ExcludedItems& excluded) {

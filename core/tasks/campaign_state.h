@@ -57,6 +57,8 @@ struct CampaignState {
 
 /// Offsets between the clocks of logger and instruments, as a session keeps them for a campaign.
 [[nodiscard]] ClockOffsets clockOffsetsOf(const Session& session, std::int64_t campaign);
+/// What the user excluded of a campaign, as the session holds it now.
+[[nodiscard]] ExcludedItems excludedItems(const Session& session, std::int64_t campaign);
 /// The campaign without the captures that were excluded: to be worked on.
 [[nodiscard]] std::shared_ptr<const Campaign> withoutExcluded(const Campaign& campaign, const ExcludedItems& excluded);
 /// Observations to fit: the campaign's own, else those of its evaluation; what the user excluded is marked so. Nothing

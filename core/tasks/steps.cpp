@@ -10,8 +10,8 @@
 #include "core/base/csv.h"
 #include "core/base/error.h"
 #include "core/tasks/task_options.h"
-#include "core/workflows/measurement_plan.h"
 #include "core/workflows/instrument_checks.h"
+#include "core/workflows/measurement_plan.h"
 
 namespace spindrift {
 namespace {
@@ -205,8 +205,8 @@ StepReport warmUp(const TaskGraph& graph) {
   // Versions before kept the statement as a result; an empty object takes it back.
   if (given.is_null() && graph.latest("warm-up") != nullptr)
     return report(StepState::Current, "You stated that the instrument was warm.");
-  return report(StepState::NotStarted, graph.hasObservations() ? warmUpNotChecked()
-                                                               : "Check whether the instrument had settled.");
+  return report(StepState::NotStarted,
+                graph.hasObservations() ? warmUpNotChecked() : "Check whether the instrument had settled.");
 }
 
 StepReport review(const TaskGraph& graph) {

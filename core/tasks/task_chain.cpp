@@ -24,22 +24,18 @@ std::optional<std::string> TaskChain::next(const TaskGraph& graph) {
   return first;
 }
 
-void CampaignTasks::readExclusions() {
-  state_.excluded.clear();
-  for (const Exclusion& e : session_.exclusions(state_.id)) state_.excluded[e.item] = e.reason;
-}
-
 std::vector<std::string> CampaignTasks::run(const std::string& task, JobContext& job, bool anew) {
   std::vector<std::string> ran;
   TaskChain chain(task, anew);
   const auto steps = std::max(1.0, static_cast<double>(graph().needed(task).size()));
   while (const auto next = chain.next(graph())) {
-    if (told_) told_(*next);
-    job.throwIfCancelled();
-    const ResultOrigin origin = graph().origin(*next);
-    const TaskWork work = prepareTask(*next, graph(), TaskInputs::of(session_, state_));
     const double done = std::min(1.0, static_cast<double>(ran.size()) / steps);
     JobContext part = job.part(done, std::min(1.0, done + 1.0 / steps));
+    part.report(0.0, *next);
+    part.throwIfCancelled();
+    state_.excluded = excludedItems(session_, state_.id);
+    const ResultOrigin origin = graph().origin(*next);
+    const TaskWork work = prepareTask(*next, graph(), TaskInputs::of(session_, state_));
     ledger_.started(origin);
     try {
       const TaskResult result = work(part, TaskOutput::Payload);

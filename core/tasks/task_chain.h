@@ -6,7 +6,6 @@
 //   while (const auto task = chain.next(graph())) { run *task and keep its result; a failure ends the chain }
 #pragma once
 
-#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -41,19 +40,15 @@ class CampaignTasks {
   [[nodiscard]] TaskGraph graph() const { return state_.tasks(session_, ledger_); }
   [[nodiscard]] const CampaignState& state() const { return state_; }
   [[nodiscard]] const TaskLedger& ledger() const { return ledger_; }
-  /// Called before each task is prepared.
-  void onStart(std::function<void(const std::string& task)> told) { told_ = std::move(told); }
-  /// Runs what is needed so that the task is current, and keeps every result. Returns what was run, in order. Throws
-  /// InputError: blocked, or why one failed (nothing after it is run); Cancelled. `anew` as in TaskChain.
+  /// Runs what is needed so that the task is current, and keeps every result; tells the job which task begins, and
+  /// takes the exclusions as the session holds them then. Returns what was run, in order. Throws InputError: blocked,
+  /// or why one failed (nothing after it is run); Cancelled. `anew` as in TaskChain.
   std::vector<std::string> run(const std::string& task, JobContext& job, bool anew = false);
-  /// Takes exclusions as the session holds them now.
-  void readExclusions();
 
  private:
   Session& session_;
   CampaignState state_;
   TaskLedger ledger_;
-  std::function<void(const std::string&)> told_;
 };
 
 }  // namespace spindrift

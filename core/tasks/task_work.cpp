@@ -7,7 +7,6 @@
 #include <array>
 #include <cmath>
 #include <iterator>
-#include <map>
 #include <string_view>
 #include <utility>
 
@@ -240,18 +239,16 @@ TaskWork reportWork(const TaskGraph& graph, const TaskInputs& in) {
   };
 }
 
-const std::map<std::string, Prepare>& works() {
-  static const std::map<std::string, Prepare> all{{"check", checkWork},
-                                                  {"evaluate", evaluateWork},
-                                                  {"fit", fitWork},
-                                                  {"thermal", thermalWork},
-                                                  {"log-compensation", logCompensationWork},
-                                                  {"discrepancy", discrepancyWork},
-                                                  {"compensation", compensationWork},
-                                                  {"verify", verifyWork},
-                                                  {"report", reportWork}};
-  return all;
-}
+/// Each after those it is made from.
+constexpr std::array<std::pair<std::string_view, Prepare>, 9> works{{{"check", checkWork},
+                                                                     {"evaluate", evaluateWork},
+                                                                     {"fit", fitWork},
+                                                                     {"thermal", thermalWork},
+                                                                     {"log-compensation", logCompensationWork},
+                                                                     {"discrepancy", discrepancyWork},
+                                                                     {"compensation", compensationWork},
+                                                                     {"verify", verifyWork},
+                                                                     {"report", reportWork}}};
 
 }  // namespace
 
@@ -265,13 +262,15 @@ TaskInputs TaskInputs::of(const Session& session, const CampaignState& state) {
   return inputs;
 }
 
-bool hasWork(const std::string& task) {
-  return works().contains(task);
+std::vector<std::string> tasksWithWork() {
+  std::vector<std::string> names;
+  for (const auto& [name, prepare] : works) names.emplace_back(name);
+  return names;
 }
 
 TaskWork prepareTask(const std::string& task, const TaskGraph& graph, const TaskInputs& inputs) {
-  const auto found = works().find(task);
-  if (found == works().end()) throw InputError(fmt::format("{} is no task of a campaign.", task));
+  const auto found = std::find_if(works.begin(), works.end(), [&](const auto& one) { return one.first == task; });
+  if (found == works.end()) throw InputError(fmt::format("{} is no task of a campaign.", task));
   const bool fits_points = task == "fit" && !graph.facts().touches && !graph.facts().scans;
   if ((fits_points || task == "discrepancy" || task == "compensation" || task == "verify") &&
       inputs.observations == nullptr)

@@ -80,8 +80,8 @@ enum class TaskOutput { Payload, Detail, Both };
 /// Work that is ready to be run, by any thread. Throws InputError and Cancelled.
 using TaskWork = std::function<TaskResult(JobContext&, TaskOutput)>;
 
-/// Whether the work of a task is here.
-[[nodiscard]] bool hasWork(const std::string& task);
+/// The tasks whose work is here, each after those it is made from.
+[[nodiscard]] std::vector<std::string> tasksWithWork();
 /// Of the graph's campaign as it is now: to be called together with TaskGraph::origin. Throws InputError: the task has
 /// no work here, or nothing to work on.
 [[nodiscard]] TaskWork prepareTask(const std::string& task, const TaskGraph& graph, const TaskInputs& inputs);

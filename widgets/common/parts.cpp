@@ -243,7 +243,7 @@ NumberTile::NumberTile(const QString& name, QWidget* parent) : QFrame(parent) {
 
 void NumberTile::set(const QString& value, const QString& note, Tone tone) {
   value_->setText(value);
-  static_cast<WrappedLabel*>(note_)->setText(note);
+  note_->setText(note);
   note_->setVisible(!note.isEmpty());
   const QColor wanted = tone == Tone::Neutral ? theme().text : theme().tone(tone);
   QPalette colours = value_->palette();

@@ -139,7 +139,7 @@ class NumberTile : public QFrame {
 
  private:
   QLabel* value_;
-  QLabel* note_;
+  WrappedLabel* note_;
 };
 
 /// What stands where nothing is yet: what will appear here and how to get it.

@@ -235,8 +235,7 @@ TEST(DiscrepancyInputOf, ComparesFiniteElementsThemselves) {
   const testing::TempFolder folder;
   const auto campaign_folder = campaignFolder(folder, "fe.json");
   const std::filesystem::path data = std::filesystem::path(SPINDRIFT_TEST_DATA) / "finite_elements";
-  for (const char* file : {"frame.frd", "mesh.inp"})
-    std::filesystem::copy_file(data / file, campaign_folder / file);
+  for (const char* file : {"frame.frd", "mesh.inp"}) std::filesystem::copy_file(data / file, campaign_folder / file);
   folder.write("fe.json",
                R"({"format":"spindrift-finite-elements","version":1,"unit_of_displacement":"mm",
     "result":"frame.frd","mesh":"mesh.inp","first_state_s":0,

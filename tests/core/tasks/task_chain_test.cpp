@@ -24,6 +24,19 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
+/// Does something when a task begins.
+class AtStart : public ProgressSink {
+ public:
+  AtStart(std::string task, std::function<void()> what) : task_(std::move(task)), what_(std::move(what)) {}
+  void report(double /*fraction*/, std::string_view stage) override {
+    if (stage == task_) what_();
+  }
+
+ private:
+  std::string task_;
+  std::function<void()> what_;
+};
+
 /// A session with a hole bar that was touched in a few cycles.
 class TaskChainTest : public ::testing::Test {
  protected:
@@ -42,7 +55,6 @@ class TaskChainTest : public ::testing::Test {
   }
   void exclude(std::size_t touch, const std::string& reason = "disturbed") {
     session_->exclude(id_, touches_.touches[touch].id(), reason);
-    tasks_->readExclusions();
   }
   std::vector<std::string> run(const std::string& task) {
     JobContext job;
@@ -107,11 +119,9 @@ TEST_F(TaskChainTest, AFailureEndsItWithItsReason) {
 }
 
 TEST_F(TaskChainTest, AChangeAsTheFitStartsIsNotTakenForWhatItWasMadeFrom) {
-  bool once = true;
-  tasks_->onStart([&](const std::string& task) {
-    if (task == "fit" && std::exchange(once, false)) exclude(5);
-  });
-  EXPECT_THAT(run("fit"), ElementsAre("evaluate", "fit"));
+  AtStart exclusion("fit", [&] { exclude(5); });
+  JobContext job({}, &exclusion);
+  EXPECT_THAT(tasks_->run("fit", job), ElementsAre("evaluate", "fit"));
   EXPECT_THAT(status("fit").changed, ElementsAre("the evaluation is outdated"));
   EXPECT_THAT(run("fit"), ElementsAre("evaluate", "fit"));
   EXPECT_TRUE(status("fit").current);
@@ -134,10 +144,8 @@ TEST_F(TaskChainTest, TheOrderFollowsTheTasksAsTheyAreNow) {
 
 TEST_F(TaskChainTest, CancelledAsOne) {
   std::stop_source stop;
-  tasks_->onStart([&](const std::string& task) {
-    if (task == "fit") stop.request_stop();
-  });
-  JobContext job(stop.get_token(), nullptr);
+  AtStart cancel("fit", [&] { stop.request_stop(); });
+  JobContext job(stop.get_token(), &cancel);
   EXPECT_THROW((void)tasks_->run("fit", job), Cancelled);
   EXPECT_THAT(kindsStored(), ElementsAre("evaluate")) << "what was worked out is kept";
   EXPECT_FALSE(tasks_->ledger().running(id_, "fit"));
