@@ -60,8 +60,9 @@ void tellScales(const ResidualProblem& problem, DiscrepancyResult& result) {
     const double scale = n.scale * tails;
     result.noise.push_back({c, scale, n.scale_uncertainty * tails, n.common, n.correlated_part, n.correlation_time_s});
     if (scale >= 0.8 && scale <= 1.25) continue;
-    result.warnings.push_back(
-        fmt::format("{} scatters {:.2f} times as much as its stated sigma; it is used as found.", toString(c), scale));
+    const int decimals = std::clamp(1 - static_cast<int>(std::floor(std::log10(scale))), 0, 9);  // two digits count
+    result.warnings.push_back(fmt::format("{} scatters {:.{}f} times as much as its stated sigma; it is used as found.",
+                                          toString(c), scale, decimals));
   }
 }
 

@@ -8084,10 +8084,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>{} Abtastwerte sind zu wenige zur Wahl der Eingänge; zulässig: mindestens 40 im Trainingsbereich.</translation>
     </message>
     <message>
-        <source>{} scatters {:.2f} times as much as its stated sigma; it is used as found.</source>
-        <translation>{} streut {:.2f}-mal so stark wie das angegebene sigma; verwendet wird die gefundene Streuung.</translation>
-    </message>
-    <message>
         <source>{} seems to have grown by {} in {}, but its expansion coefficient and temperature say {}: the axis that measures it grows as well, its coefficient is another, or the sensor is not on it.</source>
         <translation>{} ist anscheinend um {} in {} gewachsen, aber Ausdehnungskoeffizient und Temperatur ergeben {}: die messende Achse wächst ebenfalls, der Koeffizient ist ein anderer, oder der Sensor sitzt nicht darauf.</translation>
     </message>
@@ -9520,6 +9516,10 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>{} is {:.4g} wide, which is implausible in mm: the unit seems to be µm; allowed: mm.</source>
         <translation>{} ist {:.4g} breit, was in mm unplausibel ist: die Einheit ist anscheinend µm; zulässig: mm.</translation>
+    </message>
+    <message>
+        <source>{} scatters {:.{}f} times as much as its stated sigma; it is used as found.</source>
+        <translation>{} streut {:.{}f}-mal so stark wie das angegebene sigma; verwendet wird die gefundene Streuung.</translation>
     </message>
 </context>
 <context>

@@ -2138,7 +2138,7 @@ const char* const formats[] = {
     QT_TRANSLATE_NOOP("core", "{} samples are too few for {} parameters; allowed: at least {} samples (a longer range, a shorter period or a lower order)."),
     QT_TRANSLATE_NOOP("core", "{} samples are too few for {} parameters; allowed: at least {} samples."),
     QT_TRANSLATE_NOOP("core", "{} samples are too few to choose inputs; allowed: at least 40 in the training range."),
-    QT_TRANSLATE_NOOP("core", "{} scatters {:.2f} times as much as its stated sigma; it is used as found."),
+    QT_TRANSLATE_NOOP("core", "{} scatters {:.{}f} times as much as its stated sigma; it is used as found."),
     QT_TRANSLATE_NOOP("core", "{} seems to have grown by {} in {}, but its expansion coefficient and temperature say {}: the axis that measures it grows as well, its coefficient is another, or the sensor is not on it."),
     QT_TRANSLATE_NOOP("core", "{} sends a document that is not XML."),
     QT_TRANSLATE_NOOP("core", "{} sends a document that is not XML: {}."),

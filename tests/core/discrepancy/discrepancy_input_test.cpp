@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <utility>
 #include <limits>
 
 #include "core/base/error.h"
@@ -286,6 +287,16 @@ TEST(DiscrepancyInput, TellsWhichSideIsInMillimetres) {
     o.sigma *= 1e-3;
   }
   EXPECT_THAT(refusal(measured), HasSubstr("the observations in mm, or the simulation in nm"));
+}
+
+TEST(DiscrepancyInput, SaysByHowMuchAStatedSigmaIsWrong) {
+  // A sigma in mm or in nm: the factor is a number, not 0.00.
+  for (const auto& [factor, said_as] : {std::pair{1e-3, "scatters [89][0-9]{2}|scatters 1[01][0-9]{2} times"},
+                                        std::pair{1e3, "scatters 0\\.00(1[01]|0[89][0-9]) times"}}) {
+    DiscrepancyInput input = campaign(Hidden::Nothing, 40);
+    for (Observation& o : input.observations.rows) o.sigma *= factor;
+    EXPECT_THAT(run(input).warnings, ::testing::Contains(::testing::ContainsRegex(said_as))) << factor;
+  }
 }
 
 TEST(DiscrepancyInput, ReadsASimulationTableOnlyWhole) {
