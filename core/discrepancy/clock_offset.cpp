@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/discrepancy/clock_offset.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <map>
-
-#include "core/base/text.h"
 
 namespace spindrift {
 namespace {
@@ -61,33 +57,38 @@ std::optional<ClockOffset> estimateClockOffset(const ResidualProblem& problem, c
                      step_s * std::sqrt(2.0 / curvature)};
 }
 
-std::string farClockOffset(const ResidualProblem& problem, const std::vector<Effect>& catalogue,
-                           const DriverTable& drivers, const JointFit& named) {
-  const bool from_log = std::any_of(named.terms.begin(), named.terms.end(),
-                                    [](const ModelTerm& term) { return !term.variant.inputs[0].driver.empty(); });
-  if (!from_log) return {};
-  constexpr double step_s = 1200.0;
-  constexpr int most_steps = 12;
+bool fitsFarBetterElsewhere(const ResidualProblem& problem, const std::vector<Effect>& catalogue,
+                            const DriverTable& drivers, const JointFit& named) {
+  if (std::none_of(named.terms.begin(), named.terms.end(), drivenByLog)) return false;
   const double now = chi2At(problem, catalogue, drivers, named.terms, 0.0, 2);
   double best = now;
-  int best_step = 0;
-  for (int k = -most_steps; k <= most_steps; ++k) {
-    if (k == 0) continue;
-    const double value = chi2At(problem, catalogue, drivers, named.terms, k * step_s, 2);
-    if (value < best) {
-      best = value;
-      best_step = k;
-    }
-  }
+  for (int k = -far_clock_steps; k <= far_clock_steps; ++k)
+    if (k != 0) best = std::min(best, chi2At(problem, catalogue, drivers, named.terms, k * far_clock_step_s, 2));
   // In 2 ln of the likelihood, the best of so many offsets.
   constexpr double beyond_doubt = 20.0;
-  if (now - best < beyond_doubt) return {};
-  std::vector<std::string> ids;
-  for (const ModelTerm& term : named.terms) ids.push_back(term.effect->id);
-  return fmt::format(
-      "{} would fit far better if the clock of the log were {:.0f} min {} that of the observations: compare the "
-      "clocks.",
-      joinedList(ids), std::abs(best_step) * step_s / 60.0, best_step > 0 ? "ahead of" : "behind");
+  return now - best > beyond_doubt;
+}
+
+std::optional<double> farLogClock(const std::function<double(double)>& evidence_at) {
+  double best = evidence_at(0.0);
+  double best_s = 0.0;
+  const auto look = [&](double by_s) {
+    const double evidence = evidence_at(by_s);
+    if (!(evidence > best)) return;
+    best = evidence;
+    best_s = by_s;
+  };
+  for (int k = 1; k <= far_clock_steps; ++k) {
+    look(k * far_clock_step_s);
+    look(-k * far_clock_step_s);
+  }
+  if (best_s == 0.0) return std::nullopt;
+  for (double step_s = 0.5 * far_clock_step_s; step_s >= far_clock_resolution_s; step_s *= 0.5) {
+    const double about_s = best_s;
+    look(about_s - step_s);
+    look(about_s + step_s);
+  }
+  return best_s;
 }
 
 }  // namespace spindrift

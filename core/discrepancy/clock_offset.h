@@ -3,8 +3,8 @@
 // Internal to core/discrepancy. Clock of the log minus clock of the observations, s.
 #pragma once
 
+#include <functional>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "core/discrepancy/drivers.h"
@@ -24,9 +24,19 @@ struct ClockOffset {
                                                              const DriverTable& drivers, const JointFit& fit,
                                                              double present_s, double prior_s);
 
-/// An offset of the clocks far beyond what is estimated, at which the effects named would fit much better: a sentence,
-/// or none.
-[[nodiscard]] std::string farClockOffset(const ResidualProblem& problem, const std::vector<Effect>& catalogue,
-                                         const DriverTable& drivers, const JointFit& named);
+/// Offsets far beyond that are looked at: four hours either way.
+constexpr double far_clock_step_s = 1800.0;
+constexpr double far_clock_resolution_s = 450.0;
+constexpr int far_clock_steps = 8;
+constexpr double far_clocks = 2.0 * far_clock_steps;
+
+/// The effects named would fit much better at one of these offsets.
+[[nodiscard]] bool fitsFarBetterElsewhere(const ResidualProblem& problem, const std::vector<Effect>& catalogue,
+                                          const DriverTable& drivers, const JointFit& named);
+
+/// The offset, beyond the present one, at which most is explained, to within some minutes: what follows the estimate
+/// above can find. `evidence_at`: of all effects, with the clock moved by so many seconds. None: the present one is
+/// best.
+[[nodiscard]] std::optional<double> farLogClock(const std::function<double(double)>& evidence_at);
 
 }  // namespace spindrift

@@ -18,14 +18,15 @@ namespace {
 /// Takes out of `fit` what was measured between two rows of the log of different spindle speed: nobody knows when it
 /// changed, and what follows speed at once is wrong by all of it. A log so coarse that more than a tenth of the rows
 /// would go is taken as it is. Returns how many went.
-std::size_t leaveOutChanges(const OperatingLog& log, const std::vector<Observation>& rows,
+std::size_t leaveOutChanges(const OperatingLog& log, double log_clock_s, const std::vector<Observation>& rows,
                             std::vector<std::size_t>& fit) {
   const std::vector<double>* rpm = log.signal("spindle_rpm");
   if (rpm == nullptr) return 0;
   const std::vector<double>& t = log.time_s();
   const auto changes = [&](std::size_t row) {
-    const auto after = std::upper_bound(t.begin(), t.end(), rows[row].time_s);
-    if (after == t.begin() || after == t.end() || *(after - 1) == rows[row].time_s) return false;
+    const double time_s = rows[row].time_s + log_clock_s;
+    const auto after = std::upper_bound(t.begin(), t.end(), time_s);
+    if (after == t.begin() || after == t.end() || *(after - 1) == time_s) return false;
     const auto k = static_cast<std::size_t>(after - t.begin());
     return (*rpm)[k] != (*rpm)[k - 1];
   };
@@ -37,7 +38,7 @@ std::size_t leaveOutChanges(const OperatingLog& log, const std::vector<Observati
 
 }  // namespace
 
-ComparableRows comparableRows(const DiscrepancyInput& input, std::vector<std::string>& warnings) {
+ComparableRows comparableRows(const DiscrepancyInput& input, double log_clock_s, std::vector<std::string>& warnings) {
   const auto& rows = input.observations.rows;
   ComparableRows out;
   std::size_t usable = 0;
@@ -54,7 +55,8 @@ ComparableRows comparableRows(const DiscrepancyInput& input, std::vector<std::st
     if (remembers) gaps = logGaps(t);
   }
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    const bool known = rows[i].time_s <= log_end && !inGap(gaps, rows[i].time_s);
+    const double time_s = rows[i].time_s + log_clock_s;
+    const bool known = time_s <= log_end && !inGap(gaps, time_s);
     if (known && rows[i].use == ObservationUse::Holdout) out.held_out.push_back(i);
     if (rows[i].use == ObservationUse::Exclude) continue;
     if (!(rows[i].sigma > 0.0)) {
@@ -67,7 +69,7 @@ ComparableRows comparableRows(const DiscrepancyInput& input, std::vector<std::st
       continue;
     }
     if (rows[i].use != ObservationUse::Fit) continue;
-    if (rows[i].time_s > log_end) {
+    if (time_s > log_end) {
       ++beyond_log;
       continue;
     }
@@ -92,7 +94,8 @@ ComparableRows comparableRows(const DiscrepancyInput& input, std::vector<std::st
     warnings.push_back(
         fmt::format("{} observations are later than the end of the log and are not fitted.", beyond_log));
   }
-  if (const std::size_t count = input.log && remembers ? leaveOutChanges(*input.log, rows, out.fit) : 0; count > 0) {
+  if (const std::size_t count = input.log && remembers ? leaveOutChanges(*input.log, log_clock_s, rows, out.fit) : 0;
+      count > 0) {
     warnings.push_back(fmt::format(
         "{} observations lie between two rows of the log of different spindle speed and are not fitted: when it "
         "changed is not known.",

@@ -20,6 +20,8 @@ struct ComparableRows {
 
 /// Adds a warning for what is left out. Throws InputError: a sigma that is not positive, nothing to be used or fitted,
 /// fewer than half of the observations with a prediction.
-[[nodiscard]] ComparableRows comparableRows(const DiscrepancyInput& input, std::vector<std::string>& warnings);
+/// `log_clock_s`: clock of the log minus clock of the observations.
+[[nodiscard]] ComparableRows comparableRows(const DiscrepancyInput& input, double log_clock_s,
+                                            std::vector<std::string>& warnings);
 
 }  // namespace spindrift

@@ -89,15 +89,21 @@ std::vector<Effect> catalogueOf(const DiscrepancyInput& input, DriverTable& driv
   return out;
 }
 
-/// Everything that is estimated together: noise, clock and effects.
+/// Everything that is estimated together: noise, clock and effects. It stays where it is: its search looks at its
+/// catalogue.
 struct Analysis {
+  Analysis(std::shared_ptr<DriverTable> its_drivers, std::vector<Effect> effects, SimulatorHypotheses parameters)
+      : drivers(std::move(its_drivers)), catalogue(std::move(effects)), hypotheses(std::move(parameters)) {}
+  Analysis(const Analysis&) = delete;
+  Analysis& operator=(const Analysis&) = delete;
+
   std::shared_ptr<DriverTable> drivers;
   std::vector<Effect> catalogue;
   SimulatorHypotheses hypotheses;  ///< those of the catalogue that are parameters of a simulator
   std::unique_ptr<EffectSearch> search;
   EffectPosterior posterior;
   Remainder remainder;
-  double clock_offset_s = 0.0;
+  double clock_offset_s = 0.0;  ///< beyond that by which the drivers came
   double clock_uncertainty_s = 0.0;
   double simulation_error = 0.0;  ///< of its parts, as estimated
   std::vector<std::string> notes;
@@ -243,11 +249,8 @@ const SimulationPart* largestError(const std::vector<SimulationPart>& parts, con
   return &*std::find_if(parts.begin(), parts.end(), [&](const SimulationPart& p) { return p.id == largest.id; });
 }
 
-Analysis analyse(const DiscrepancyInput& input, ResidualProblem& problem, const DiscrepancyOptions& options,
-                 const DiscrepancyPriors& priors, std::shared_ptr<DriverTable> drivers, std::vector<Effect> catalogue,
-                 JobContext& job) {
-  Analysis a{
-      std::move(drivers), std::move(catalogue), {input.tangents.get(), input.observations}, {}, {}, {}, {}, {}, {}, {}};
+void analyse(Analysis& a, const DiscrepancyInput& input, ResidualProblem& problem, const DiscrepancyOptions& options,
+             const DiscrepancyPriors& priors, JobContext& job) {
   // Absolute values that are said to be predicted exactly: what deviates is none of the simulation's own scale.
   const bool exact = input.absolute && !(input.simulation_gain_uncertainty > 0.0);
   // Where a simulator says which of its parameters are uncertain, its parts are not doubted beyond what is stated.
@@ -265,7 +268,7 @@ Analysis analyse(const DiscrepancyInput& input, ResidualProblem& problem, const 
   parts = partsOfSimulation(problem, *a.drivers, a.catalogue, priors, job);
   problem.setNuisances(nuisancesOf(priors.simulation_error));
   weigh(a, input, problem, options, priors, exact, nullptr, job);
-  if (exact || input.tangents || !(priors.rough_simulation_error > input.simulation_gain_uncertainty)) return a;
+  if (exact || input.tangents || !(priors.rough_simulation_error > input.simulation_gain_uncertainty)) return;
   // An effect may be what a rough simulation leaves: a part that is somewhat too large or too small, not one missing.
   const auto sizes = [&] {
     Eigen::MatrixXd fitted(problem.size(), static_cast<Index>(a.posterior.fit.terms.size()));
@@ -310,11 +313,11 @@ Analysis analyse(const DiscrepancyInput& input, ResidualProblem& problem, const 
   if (far != nullptr) {
     problem.setNuisances(nuisancesOf(priors.simulation_error));
     weigh(a, input, problem, options, priors, exact, &far->term, job);
-    return a;
+    return;
   }
   if (!rough) {
     problem.setNuisances(nuisancesOf(priors.simulation_error));
-    return a;
+    return;
   }
   weigh(a, input, problem, options, priors, exact, nullptr, job);
   for (const PartError& error : partErrors(problem, parts, first_part, problem.without(a.posterior.fit.contribution))) {
@@ -327,7 +330,6 @@ Analysis analyse(const DiscrepancyInput& input, ResidualProblem& problem, const 
                     error.relative > 0.0 ? "much" : "little", error.id,
                     100.0 * priors.rough_simulation_limit * priors.rough_simulation_error));
   }
-  return a;
 }
 
 /// Everything that the numbers of a result are made of.
@@ -565,6 +567,82 @@ std::string sentenceOf(const DiscrepancyResult& result, const DiscrepancyOptions
                      ambiguous ? "; these data do not distinguish at least one of them from its rivals" : "");
 }
 
+/// The answer with the clock of the log where it is taken to be.
+struct Attempt {
+  double log_clock_s = 0.0;  ///< clock of the log minus clock of the observations, before it is estimated
+  std::vector<std::string> warnings;
+  ComparableRows rows;
+  std::unique_ptr<ResidualProblem> problem;
+  std::unique_ptr<Analysis> analysis;
+  DiscrepancyOptions options;  ///< as far as the data admit them
+  bool enough = false;
+  Judgement judged;
+};
+
+Attempt answered(const DiscrepancyInput& input, const DiscrepancyOptions& options, const DiscrepancyPriors& priors,
+                 double log_clock_s, JobContext& job) {
+  Attempt out;
+  out.log_clock_s = log_clock_s;
+  out.rows = comparableRows(input, log_clock_s, out.warnings);
+  out.warnings.insert(out.warnings.end(), input.notes.begin(), input.notes.end());
+  checkUnits(input, out.rows.fit);
+  job.report(0.0, "preparing");
+  auto drivers = std::make_shared<DriverTable>(input.machine, input.log ? &*input.log : nullptr);
+  warnAboutLog(input, *drivers, log_clock_s, out.warnings);
+  warnAboutData(input, out.rows.fit, out.warnings);
+  out.problem = std::make_unique<ResidualProblem>(input, out.rows.fit, most_units);
+  std::vector<Effect> catalogue = catalogueOf(input, *drivers, *out.problem, out.warnings);
+  warnAboutUndecidable(input, catalogue, out.warnings);
+  checkIds(options, catalogue, input.own.get());
+  drivers->shiftClock(log_clock_s);
+
+  out.enough = out.problem->degreesOfFreedom() >= 12 && (input.absolute || out.problem->epoch_count >= 4);
+  out.options = options;
+  if (!out.enough) out.options.max_effects = 0;
+  out.analysis = std::make_unique<Analysis>(std::move(drivers), std::move(catalogue),
+                                            SimulatorHypotheses(input.tangents.get(), input.observations));
+  analyse(*out.analysis, input, *out.problem, out.options, priors, job);
+  const Analysis& analysis = *out.analysis;
+  out.warnings.insert(out.warnings.end(), analysis.notes.begin(), analysis.notes.end());
+  out.judged = judge(*out.problem, *analysis.search, analysis.posterior, analysis.remainder, priors, out.options,
+                     [&](const JointFit& fit) { return heldOutRms(input, out.rows, *out.problem, analysis, fit); });
+  out.warnings.insert(out.warnings.end(), out.judged.warnings.begin(), out.judged.warnings.end());
+  return out;
+}
+
+/// With a clock of the log far from that of the observations, where something is left, or what is named would fit
+/// better.
+std::optional<Attempt> answeredFarOff(const DiscrepancyInput& input, const Attempt& near,
+                                      const DiscrepancyOptions& options, const DiscrepancyPriors& priors,
+                                      JobContext& job) {
+  if (!near.enough || !input.log || input.tangents || options.max_effects == 0) return std::nullopt;
+  const Analysis& analysis = *near.analysis;
+  // What nothing in the log drives may stand for what the log drives at another time.
+  const auto& named = near.judged.named;
+  const bool doubtful = near.judged.verdict == DiscrepancyVerdict::Unknown || !near.judged.leftover.empty() ||
+                        !std::all_of(named.terms.begin(), named.terms.end(), drivenByLog) ||
+                        fitsFarBetterElsewhere(*near.problem, analysis.catalogue, *analysis.drivers, named);
+  if (!doubtful) return std::nullopt;
+  // What goes with the log may have been taken for noise that is common to a state or follows itself in time.
+  ResidualProblem problem = *near.problem;
+  problem.setNoise(ownNoiseOf(problem.noise));
+  const auto evidenceAt = [&](double by_s) {
+    DriverTable drivers = *analysis.drivers;
+    drivers.shiftClock(by_s);
+    const EffectSearch search(problem, drivers, analysis.catalogue);
+    const CandidateLibrary library(search, problem, job);
+    return PosteriorSearch(search, problem, library, options, priors, analysis.simulation_error).run(job).evidence;
+  };
+  const std::optional<double> by_s = farLogClock(evidenceAt);
+  if (!by_s) return std::nullopt;
+  Attempt far = answered(input, options, priors, near.log_clock_s + *by_s, job);
+  // A clock that is hours off is believed for what explains all of it.
+  const bool all = !far.judged.names.empty() && far.judged.leftover.empty();
+  const double worth = far.analysis->posterior.over_unknown - std::max(0.0, analysis.posterior.over_unknown);
+  if (!all || worth < 2.0 * std::log(far_clocks / priors.far_clock)) return std::nullopt;
+  return far;
+}
+
 /// What too few observations leave to say.
 void tellUndecided(const Solution& solution, DiscrepancyResult& result) {
   std::set<std::string> states;
@@ -634,52 +712,41 @@ void DiscrepancyOptions::validate() const {
 DiscrepancyResult findDiscrepancy(const DiscrepancyInput& input, const DiscrepancyOptions& options, JobContext& job) {
   options.validate();
   SPINDRIFT_ASSERT(input.predicted.size() == input.observations.rows.size(), "one prediction for every observation");
-  DiscrepancyResult result;
-  const ComparableRows rows = comparableRows(input, result.warnings);
-  result.warnings.insert(result.warnings.end(), input.notes.begin(), input.notes.end());
-  result.unmatched = rows.unmatched;
-  checkUnits(input, rows.fit);
-
-  job.report(0.0, "preparing");
-  const auto drivers = std::make_shared<DriverTable>(input.machine, input.log ? &*input.log : nullptr);
-  warnAboutLog(input, *drivers, result.warnings);
-  warnAboutData(input, rows.fit, result.warnings);
-  result.sensors = drivers->sensors();
-  ResidualProblem problem(input, rows.fit, most_units);
-  std::vector<Effect> catalogue = catalogueOf(input, *drivers, problem, result.warnings);
-  warnAboutUndecidable(input, catalogue, result.warnings);
-  checkIds(options, catalogue, input.own.get());
-
-  const bool enough = problem.degreesOfFreedom() >= 12 && (input.absolute || problem.epoch_count >= 4);
-  DiscrepancyOptions effective = options;
-  if (!enough) effective.max_effects = 0;
   const DiscrepancyPriors priors;
-  const Analysis analysis = analyse(input, problem, effective, priors, drivers, std::move(catalogue), job);
-  result.warnings.insert(result.warnings.end(), analysis.notes.begin(), analysis.notes.end());
-  result.clock_offset_s = analysis.clock_offset_s;
-  result.clock_offset_uncertainty_s = analysis.clock_uncertainty_s;
-  if (std::abs(result.clock_offset_s) > 30.0) {
+  Attempt attempt = answered(input, options, priors, input.log_clock_s, job);
+  if (std::optional<Attempt> far = answeredFarOff(input, attempt, options, priors, job)) attempt = std::move(*far);
+  ResidualProblem& problem = *attempt.problem;
+  const Analysis& analysis = *attempt.analysis;
+  const ComparableRows& rows = attempt.rows;
+
+  DiscrepancyResult result;
+  result.warnings = attempt.warnings;
+  result.unmatched = rows.unmatched;
+  result.sensors = analysis.drivers->sensors();
+  result.clock_offset_s = attempt.log_clock_s + analysis.clock_offset_s;
+  // Far off it is found in steps, as long as nothing finer is seen.
+  const bool found_far_off = attempt.log_clock_s != input.log_clock_s;
+  result.clock_offset_uncertainty_s =
+      std::hypot(found_far_off && analysis.clock_uncertainty_s == 0.0 ? far_clock_resolution_s : 0.0,
+                 input.log_clock_uncertainty_s, analysis.clock_uncertainty_s);
+  if (found_far_off) {
+    result.warnings.push_back(
+        fmt::format("What is named fits the log as if its clock were about {:.0f} min {} that of the observations, and "
+                    "is told with "
+                    "it: compare the clocks.",
+                    std::abs(result.clock_offset_s) / 60.0, result.clock_offset_s > 0.0 ? "ahead of" : "behind"));
+  } else if (std::abs(analysis.clock_offset_s) > 30.0) {
     result.warnings.push_back(fmt::format(
         "The clock of the log is {:.0f} s {} that of the observations, as far as the data show it (± {:.0f} s).",
         std::abs(result.clock_offset_s), result.clock_offset_s > 0.0 ? "ahead of" : "behind",
         result.clock_offset_uncertainty_s));
   }
 
-  Solution solution{input,
-                    rows,
-                    problem,
-                    analysis,
-                    judge(problem, *analysis.search, analysis.posterior, analysis.remainder, priors, effective,
-                          [&](const JointFit& fit) { return heldOutRms(input, rows, problem, analysis, fit); }),
-                    {},
-                    {}};
+  Solution solution{input, rows, problem, analysis, attempt.judged, {}, {}};
   result.verdict = solution.judged.verdict;
   result.leftover = solution.judged.leftover;
   result.steps = solution.judged.steps;
   result.explained_fraction = solution.judged.explained_fraction;
-  for (const std::string& warning : solution.judged.warnings) result.warnings.push_back(warning);
-  const std::string far_clock = farClockOffset(problem, analysis.catalogue, *drivers, solution.judged.named);
-  if (!far_clock.empty()) result.warnings.push_back(far_clock);
   tellCandidates(analysis.posterior, options, result);
   fitModel(solution);
   result.model = std::make_shared<EffectModel>(analysis.drivers, solution.averaged, nullptr, input.base_table);
@@ -692,7 +759,7 @@ DiscrepancyResult findDiscrepancy(const DiscrepancyInput& input, const Discrepan
         "{} and {} of the simulation have the same effect on the observations and cannot be distinguished.", a, b));
   }
   result.where = findPlaces(problem, *analysis.drivers, problem.projectedResidual().head(problem.size()));
-  if (options.suggest && enough && result.verdict == DiscrepancyVerdict::Ambiguous) {
+  if (options.suggest && attempt.enough && result.verdict == DiscrepancyVerdict::Ambiguous) {
     std::vector<std::string> ambiguous;
     for (const NamedEffect& name : solution.judged.names) {
       const bool of_catalogue = analysis.hypotheses.find(name.id) == nullptr &&
@@ -704,13 +771,13 @@ DiscrepancyResult findDiscrepancy(const DiscrepancyInput& input, const Discrepan
     }
     if (!ambiguous.empty())
       result.suggestion = suggestMeasurement(input, *analysis.drivers, *analysis.search, problem, analysis.posterior,
-                                             ambiguous, effective, priors, job);
+                                             ambiguous, attempt.options, priors, job);
   }
 
   warnAboutSensors(result.sensors, result.warnings);
-  result.decided = enough;
-  result.status = enough ? FitStatus::Converged : FitStatus::Degenerate;
-  if (enough) {
+  result.decided = attempt.enough;
+  result.status = attempt.enough ? FitStatus::Converged : FitStatus::Degenerate;
+  if (attempt.enough) {
     result.message = sentenceOf(result, options);
   } else {
     tellUndecided(solution, result);

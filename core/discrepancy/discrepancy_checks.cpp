@@ -77,7 +77,8 @@ void warnAboutSensors(const std::vector<SensorReading>& sensors, std::vector<std
   }
 }
 
-void warnAboutLog(const DiscrepancyInput& input, const DriverTable& drivers, std::vector<std::string>& warnings) {
+void warnAboutLog(const DiscrepancyInput& input, const DriverTable& drivers, double log_clock_s,
+                  std::vector<std::string>& warnings) {
   if (!input.log || input.log->empty()) {
     if (!input.own || input.own->builtIn()) {
       warnings.emplace_back(
@@ -96,7 +97,7 @@ void warnAboutLog(const DiscrepancyInput& input, const DriverTable& drivers, std
   for (const LogGap& gap : logGaps(input.log->time_s())) {
     const auto count =
         std::count_if(input.observations.rows.begin(), input.observations.rows.end(), [&](const Observation& o) {
-          return inGap({&gap, 1}, o.time_s);
+          return inGap({&gap, 1}, o.time_s + log_clock_s);
         });
     warnings.push_back(fmt::format(
         "The log has a gap of {:.0f} s after {:.0f} s: what the machine did in it is not known, and {} observations "
@@ -127,82 +128,6 @@ void warnAboutLoneStates(const DiscrepancyInput& input, const std::vector<std::s
       shortenedList(lone, 5, 3), one ? "was" : "were"));
 }
 
-/// Simulation at a time of one series, linear between its observations.
-double simulatedAt(const std::vector<std::pair<double, double>>& series, double time_s) {
-  const auto after = std::lower_bound(series.begin(), series.end(), std::make_pair(time_s, -1e300));
-  if (after == series.begin()) return series.front().second;
-  if (after == series.end()) return series.back().second;
-  const auto before = std::prev(after);
-  const double part = (time_s - before->first) / std::max(1e-9, after->first - before->first);
-  return before->second + part * (after->second - before->second);
-}
-
-/// Sum of the squares of deviations from the mean.
-double scatter(const std::vector<double>& values) {
-  double mean = 0.0;
-  for (const double v : values) mean += v / static_cast<double>(values.size());
-  double sum = 0.0;
-  for (const double v : values) sum += (v - mean) * (v - mean);
-  return sum;
-}
-
-/// The clock of the observations against that of the simulation, where the simulation at another time fits far better.
-void warnAboutSimulationClock(const DiscrepancyInput& input, const std::vector<std::size_t>& rows,
-                              std::vector<std::string>& warnings) {
-  std::map<std::pair<std::string, Component>, std::vector<std::size_t>> series;
-  for (const std::size_t row : rows) {
-    const Observation& o = input.observations.rows[row];
-    series[{o.point, o.component}].push_back(row);
-  }
-  constexpr double step_s = 600.0;
-  constexpr int most_steps = 24;
-  // Scatter with the simulation of another time, over that with the simulation of the same time, at the same readings.
-  const auto left = [&](double offset_s) {
-    double sum = 0.0;
-    double sum_now = 0.0;
-    double count = 0.0;
-    for (auto& [key, members] : series) {
-      std::vector<std::pair<double, double>> simulated;
-      for (const std::size_t row : members)
-        simulated.emplace_back(input.observations.rows[row].time_s, input.predicted[row]);
-      std::sort(simulated.begin(), simulated.end());
-      if (simulated.size() < 6) continue;
-      // Only where the simulation is known at either time.
-      std::vector<double> r;
-      std::vector<double> r_now;
-      for (const std::size_t row : members) {
-        const double t = input.observations.rows[row].time_s + offset_s;
-        if (t < simulated.front().first || t > simulated.back().first) continue;
-        const Observation& o = input.observations.rows[row];
-        r.push_back((o.value - simulatedAt(simulated, t)) / o.sigma);
-        r_now.push_back((o.value - input.predicted[row]) / o.sigma);
-      }
-      if (r.size() < 4) continue;
-      sum += scatter(r);
-      sum_now += scatter(r_now);
-      count += static_cast<double>(r.size()) - 1.0;
-    }
-    // On a good part of the readings, or it says nothing.
-    return 2.0 * count > static_cast<double>(rows.size()) && sum_now > 0.0 ? sum / sum_now : 1.0;
-  };
-  double best = 1.0;
-  int best_step = 0;
-  for (int k = -most_steps; k <= most_steps; ++k) {
-    const double value = left(k * step_s);
-    if (value < best) {
-      best = value;
-      best_step = k;
-    }
-  }
-  constexpr double far_better = 0.5;
-  if (std::abs(best_step) < 2 || best > far_better) return;
-  warnings.push_back(fmt::format(
-      "The observations agree far better with the simulation of about {:.0f} min {} ({:.0f} % less scatter): compare "
-      "the "
-      "clocks of observations.csv, log.csv and the simulation.",
-      std::abs(best_step) * step_s / 60.0, best_step > 0 ? "later" : "earlier", 100.0 * (1.0 - std::sqrt(best))));
-}
-
 }  // namespace
 
 void warnAboutData(const DiscrepancyInput& input, const std::vector<std::size_t>& rows,
@@ -215,7 +140,6 @@ void warnAboutData(const DiscrepancyInput& input, const std::vector<std::size_t>
                     toString(*components.begin())));
   }
   warnAboutLoneStates(input, rows, warnings);
-  warnAboutSimulationClock(input, rows, warnings);
 }
 
 }  // namespace spindrift

@@ -10,16 +10,36 @@
 #include "core/discrepancy/discrepancy.h"
 #include "core/discrepancy/effect_model.h"
 #include "core/discrepancy/own_effects.h"
+#include "core/discrepancy/simulation_clock.h"
 #include "core/discrepancy/simulator_tangents.h"
 #include "core/finite_elements/fe_simulation.h"
 
 namespace spindrift {
 namespace {
 
-void match(const SimulationTable& table, const Campaign& campaign, const std::string& name, DiscrepancyInput& input) {
+void followClock(DiscrepancyInput& input, const PredictedAt& predicted) {
+  const auto clock = farSimulationClock(input.observations.rows, predicted);
+  if (!clock) return;
+  input.log_clock_s = clock->offset_s;
+  input.log_clock_uncertainty_s = clock->standard_uncertainty_s;
+  input.notes.push_back(clock->sentence(true));
+}
+
+void match(const SimulationTable& table, const Campaign& campaign, const std::string& name, bool follow_clock,
+           DiscrepancyInput& input) {
   std::vector<std::string> known;
   for (const MachinePoint& point : campaign.machine.points) known.push_back(point.id);
-  SimulationMatch found = matchSimulation(table, input.observations, known, name);
+  if (follow_clock) {
+    followClock(input, [&](const Observation& o, double time_s) {
+      return table.at(time_s, o.point, o.position_mm, o.component).value;
+    });
+  }
+  ObservationSet moved;
+  if (input.log_clock_s != 0.0) {
+    moved = input.observations;
+    for (Observation& o : moved.rows) o.time_s += input.log_clock_s;
+  }
+  SimulationMatch found = matchSimulation(table, input.log_clock_s != 0.0 ? moved : input.observations, known, name);
   input.base_table = name;
   input.predicted = std::move(found.predicted);
   input.notes.insert(input.notes.end(), found.notes.begin(), found.notes.end());
@@ -75,45 +95,28 @@ void compareRuns(const std::vector<Observation>& rows, const std::vector<double>
                   name, where));
 }
 
-}  // namespace
-
-DiscrepancyInput discrepancyInput(const Campaign& campaign, ObservationSet observations,
-                                  std::shared_ptr<const SimulatorTangents> tangents) {
-  SPINDRIFT_ASSERT(tangents != nullptr && tangents->base.size() == observations.rows.size(),
-                   "a simulator that was run for these observations");
-  const std::string name = simulationName(campaign);
-  DiscrepancyInput input = name.empty() ? withoutSimulation(campaign, std::move(observations))
-                                        : discrepancyInput(campaign, std::move(observations));
-  if (!name.empty()) compareRuns(input.observations.rows, input.predicted, tangents->base, name, input.notes);
-  input.predicted = tangents->base;
-  input.base.reset();
-  input.base_table.clear();
-  input.notes.insert(input.notes.end(), tangents->notes.begin(), tangents->notes.end());
-  input.tangents = std::move(tangents);
-  return input;
-}
-
-DiscrepancyInput discrepancyInput(const Campaign& campaign, ObservationSet observations) {
+/// `follow_clock`: compared at the time at which they agree, where that is far from their own.
+DiscrepancyInput withSimulation(const Campaign& campaign, ObservationSet observations, const std::string& name,
+                                bool follow_clock) {
   DiscrepancyInput input = withoutSimulation(campaign, std::move(observations));
-  const std::string name = simulationName(campaign);
-  if (name.empty()) {
-    throw InputError({campaign.path("campaign.json"), ""},
-                     "names no simulation to compare with; allowed: \"simulation\": \"simulation.csv\", \"model.json\" "
-                     "or \"fe.json\".");
-  }
   const std::filesystem::path file = campaign.path(name);
   if (file.extension() == ".json") {
     if (isFeMap(file)) {
-      match(readSimulation(file, input.notes), campaign, name, input);
+      match(readSimulation(file, input.notes), campaign, name, follow_clock, input);
       return input;
     }
     const auto model = EffectModel::read(file, campaign.machine, campaign.log ? &*campaign.log : nullptr,
                                          input.observations.points(), input.own.get(), input.absolute);
     input.base = model;
+    const auto predicted = [&](const Observation& o, double time_s) {
+      DeviationQuery query = DeviationQuery::of(o);
+      query.time_s = time_s;
+      return model->predict(query, o.component).value;
+    };
+    if (follow_clock) followClock(input, predicted);
     input.predicted.reserve(input.observations.rows.size());
-    for (const Observation& o : input.observations.rows) {
-      input.predicted.push_back(model->predict(DeviationQuery::of(o), o.component).value);
-    }
+    for (const Observation& o : input.observations.rows)
+      input.predicted.push_back(predicted(o, o.time_s + input.log_clock_s));
     return input;
   }
   if (file.extension() != ".csv") {
@@ -122,8 +125,40 @@ DiscrepancyInput discrepancyInput(const Campaign& campaign, ObservationSet obser
                          "\" is not a simulation by its ending; allowed: .csv, a model (.json), or a map of "
                          "finite-element results (.json).");
   }
-  match(SimulationTable::read(file), campaign, name, input);
+  match(SimulationTable::read(file), campaign, name, follow_clock, input);
   return input;
+}
+
+}  // namespace
+
+DiscrepancyInput discrepancyInput(const Campaign& campaign, ObservationSet observations,
+                                  std::shared_ptr<const SimulatorTangents> tangents) {
+  SPINDRIFT_ASSERT(tangents != nullptr && tangents->base.size() == observations.rows.size(),
+                   "a simulator that was run for these observations");
+  const std::string name = simulationName(campaign);
+  DiscrepancyInput input = name.empty() ? withoutSimulation(campaign, std::move(observations))
+                                        : withSimulation(campaign, std::move(observations), name, false);
+  if (!name.empty()) compareRuns(input.observations.rows, input.predicted, tangents->base, name, input.notes);
+  input.predicted = tangents->base;
+  // A simulator was run for the times of the observations, and they cannot be moved.
+  const auto clock =
+      farSimulationClock(input.observations.rows, predictedBetween(input.observations.rows, input.predicted));
+  if (clock) input.notes.push_back(clock->sentence(false));
+  input.base.reset();
+  input.base_table.clear();
+  input.notes.insert(input.notes.end(), tangents->notes.begin(), tangents->notes.end());
+  input.tangents = std::move(tangents);
+  return input;
+}
+
+DiscrepancyInput discrepancyInput(const Campaign& campaign, ObservationSet observations) {
+  const std::string name = simulationName(campaign);
+  if (name.empty()) {
+    throw InputError({campaign.path("campaign.json"), ""},
+                     "names no simulation to compare with; allowed: \"simulation\": \"simulation.csv\", \"model.json\" "
+                     "or \"fe.json\".");
+  }
+  return withSimulation(campaign, std::move(observations), name, true);
 }
 
 }  // namespace spindrift

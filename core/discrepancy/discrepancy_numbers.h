@@ -16,12 +16,13 @@ namespace spindrift {
 void checkUnits(const DiscrepancyInput& input, const std::vector<std::size_t>& rows);
 
 /// What the log lacks that the search would need.
-/// Data that tell less than they seem to: one component, states read at one point only, a clock that is far off.
+/// Data that tell less than they seem to: one component, states read at one point only.
 void warnAboutData(const DiscrepancyInput& input, const std::vector<std::size_t>& rows,
                    std::vector<std::string>& warnings);
 /// What was read from the names of sensors, for the user to confirm, and where name and place contradict each other.
 void warnAboutSensors(const std::vector<SensorReading>& sensors, std::vector<std::string>& warnings);
-void warnAboutLog(const DiscrepancyInput& input, const DriverTable& drivers, std::vector<std::string>& warnings);
+void warnAboutLog(const DiscrepancyInput& input, const DriverTable& drivers, double log_clock_s,
+                  std::vector<std::string>& warnings);
 
 /// What decides which effects this machine, its log and the points measured admit.
 [[nodiscard]] CatalogueContext catalogueContext(const DiscrepancyInput& input, const DriverTable& drivers,

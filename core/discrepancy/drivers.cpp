@@ -91,7 +91,7 @@ DriverTable::DriverTable(const MachineDescription& machine, const OperatingLog* 
     if (const auto* on = log->signal(name)) add({name, "on", false, SensorRole::Other, scaled(*on, 1.0, 1.0)});
   }
   if (log->signal("instrument_on") == nullptr) {
-    add({"instrument_on_assumed", "on", false, SensorRole::Other, std::vector<double>(n, 1.0)});
+    add({std::string(assumed_instrument), "on", false, SensorRole::Other, std::vector<double>(n, 1.0)});
   }
   std::map<SensorRole, ColumnSide> sides;
   for (const std::string& name : log->temperatureNames()) {

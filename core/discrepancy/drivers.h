@@ -28,11 +28,14 @@ struct Driver {
   bool settled = false;                 ///< before the log it had its first value for long; false: it was zero
 };
 
+/// On from the first row, where the log does not say when the instrument was switched on.
+constexpr std::string_view assumed_instrument = "instrument_on_assumed";
+
 /// Signals by name: "spindle_rpm^1", "^1.5", "^2" (krpm^p), "feed_x" (m/min), "speed_c" (rpm) and the squares of both,
 /// "feed_x^2", "speed_c^2" (friction is not quite in proportion to speed), "coolant", "instrument_on",
 /// "coolant*T_room" (on x K), every temperature under its own name, "column_difference" (front minus rear),
 /// "column_side_difference" (left minus right), and heat times position "spindle_rpm^1*pos_y", and
-/// "instrument_on_assumed" (on from the first row) where the log does not say when the instrument was switched on.
+/// assumed_instrument.
 /// Signals that never change are left out and named in `dead`.
 class DriverTable {
  public:

@@ -66,6 +66,8 @@ struct DiscrepancyPriors {
   double instead_of_common_noise = 12.0;
   /// Standard deviation of the offset between the clocks of log and observations, s.
   double clock_s = 120.0;
+  /// Probability that they are far apart: summer time, a clock that was never set.
+  double far_clock = 0.02;
   /// An unknown cause leaves of an effect that imitates it this part of its amplitude, or more. What bodies do that
   /// exchange heat leaves less of the effect that stands for it.
   double imitation = 0.45;

@@ -124,8 +124,9 @@ Eigen::VectorXd EffectSearch::course(const ModelTerm& term, const Eigen::VectorX
 }
 
 bool drivenByLog(const ModelTerm& term) {
-  return std::any_of(term.variant.inputs.begin(), term.variant.inputs.end(),
-                     [](const EffectInput& input) { return !input.driver.empty(); });
+  return std::any_of(term.variant.inputs.begin(), term.variant.inputs.end(), [](const EffectInput& input) {
+    return !input.driver.empty() && input.driver != assumed_instrument;
+  });
 }
 
 bool EffectSearch::admissible(const ModelTerm& term, const Eigen::VectorXd& gains) const {

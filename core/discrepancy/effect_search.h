@@ -21,7 +21,7 @@ struct ModelTerm {
   std::vector<double> parameters;
 };
 
-/// Some signal of the log moves it.
+/// Some signal of the log moves it, not one that is assumed.
 [[nodiscard]] bool drivenByLog(const ModelTerm& term);
 
 /// A joint fit of several effects.

@@ -292,7 +292,7 @@ SimulationUpdate putIntoSimulation(const DiscrepancyInput& input, const Discrepa
   SimulationUpdate out;
   out.before = out.after = input.predicted;
   std::vector<std::string> told_before;  // by the search
-  const ComparableRows rows = comparableRows(input, told_before);
+  const ComparableRows rows = comparableRows(input, input.log_clock_s, told_before);
   SimulationClosure closure(input, result, simulator, rows.fit, job);
   out.runs_to_search = input.tangents->runs;
   for (const std::string& name : options.mechanisms) {

@@ -35,7 +35,7 @@ MechanismChoice mechanismsBehind(const DiscrepancyInput& input, const Discrepanc
   MechanismChoice out;
   if (result.effects.empty()) return out;
   std::vector<std::string> told_before;  // by the search
-  const ComparableRows rows = comparableRows(input, told_before);
+  const ComparableRows rows = comparableRows(input, input.log_clock_s, told_before);
   const JobContext no_job;
   const SimulationClosure closure(input, result, simulator, rows.fit, no_job);
   const auto add = [&](const std::string& name) {

@@ -341,7 +341,7 @@ Eigen::MatrixXd plannedResponses(const DriverTable& planned, const EffectVariant
   for (std::size_t i = 0; i < variant.inputs.size(); ++i) {
     const EffectInput& input = variant.inputs[i];
     auto column = out.col(static_cast<Index>(i));
-    const std::string name = input.driver == "instrument_on_assumed" ? "instrument_on" : input.driver;
+    const std::string name = input.driver == assumed_instrument ? "instrument_on" : input.driver;
     const Driver* driver = name.empty() ? nullptr : planned.find(name);
     const std::size_t at = variant.shared_lag ? 0 : next;
     switch (input.dynamics) {

@@ -8248,10 +8248,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>{} Arbeitsprozesse verschwanden bei den Elementen {} bis {}</translation>
     </message>
     <message>
-        <source>{} would fit far better if the clock of the log were {:.0f} min {} that of the observations: compare the clocks.</source>
-        <translation>{} würde weit besser passen, wenn die Uhr des Protokolls {:.0f} min {} der Uhr der Beobachtungen läge: Uhren vergleichen.</translation>
-    </message>
-    <message>
         <source>{} {:.6g}:{:.6g} holds no measured value of {}; the record runs from {:.6g} to {:.6g} s.</source>
         <translation>{} {:.6g}:{:.6g} enthält keinen Messwert von {}; die Aufzeichnung reicht von {:.6g} bis {:.6g} s.</translation>
     </message>
@@ -9520,6 +9516,14 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>{} scatters {:.{}f} times as much as its stated sigma; it is used as found.</source>
         <translation>{} streut {:.{}f}-mal so stark wie das angegebene sigma; verwendet wird die gefundene Streuung.</translation>
+    </message>
+    <message>
+        <source>The observations agree far better with the simulation of about {:.0f} min {} ({:.0f} % less scatter), so they are compared with simulation and log at that time: compare the clocks of observations.csv, log.csv and the simulation.</source>
+        <translation>Die Beobachtungen stimmen weit besser mit der Simulation von etwa {:.0f} min {} überein ({:.0f} % weniger Streuung) und werden deshalb mit Simulation und Protokoll zu dieser Zeit verglichen: Uhren von observations.csv, log.csv und der Simulation vergleichen.</translation>
+    </message>
+    <message>
+        <source>What is named fits the log as if its clock were about {:.0f} min {} that of the observations, and is told with it: compare the clocks.</source>
+        <translation>Was genannt ist, passt zum Protokoll, als ginge dessen Uhr etwa {:.0f} min {} der Uhr der Beobachtungen, und wird damit angegeben: Uhren vergleichen.</translation>
     </message>
 </context>
 <context>

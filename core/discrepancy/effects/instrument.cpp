@@ -26,7 +26,7 @@ void instrument(const CatalogueContext& context, std::vector<Effect>& out) {
     effect.shape = {constantShape(static_cast<Component>(axis))};
     // Not logged: taken as switched on when the log starts.
     if (logged) addLagVariants(effect, {"instrument_on"});
-    if (context.drivers->has("instrument_on_assumed")) addLagVariants(effect, {"instrument_on_assumed"});
+    if (context.drivers->has(assumed_instrument)) addLagVariants(effect, {std::string(assumed_instrument)});
     effect.driver_missing = effect.variants.empty();
     out.push_back(std::move(effect));
   }

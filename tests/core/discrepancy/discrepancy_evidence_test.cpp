@@ -347,41 +347,6 @@ TEST(BadInput, IsAnsweredAsFarAsPossible) {
   EXPECT_TRUE(says(run(lone), "alone was read at one point only"));
 }
 
-TEST(BadInput, AClockThatIsTwoHoursOffIsSaid) {
-  // Against the simulation: it moves much, and the readings are where it was two hours before.
-  DiscrepancyInput simulated = inWorkshop(Hidden::Nothing, 2, {});
-  const auto course = [](double t) { return 12.0 * std::sin(t / 4100.0) + 6.0 * std::sin(t / 1900.0); };
-  for (std::size_t i = 0; i < simulated.predicted.size(); ++i) {
-    Observation& o = simulated.observations.rows[i];
-    simulated.predicted[i] += course(o.time_s);
-    o.value += course(o.time_s - 7200.0);
-  }
-  EXPECT_TRUE(says(run(simulated), "the simulation of about 120 min earlier"));
-  // Against the log: a coolant that acts within minutes, by a programme that does not repeat.
-  DiscrepancyInput input = inWorkshop(Hidden::Nothing, 9, {});
-  std::vector<double> coolant;
-  Random random(3);
-  bool on = false;
-  while (coolant.size() < input.log->time_s().size()) {
-    coolant.insert(coolant.end(), static_cast<std::size_t>(random.uniform(20.0, 110.0)), on ? 1.0 : 0.0);
-    on = !on;
-  }
-  coolant.resize(input.log->time_s().size());
-  input.log->setSignal("coolant", coolant);
-  const double step_s = input.log->time_s()[1] - input.log->time_s()[0];
-  for (Observation& o : input.observations.rows) {
-    if (o.component != Component::EX) continue;
-    double q = 0.0;
-    for (std::size_t i = 0; step_s * static_cast<double>(i) < o.time_s - 7200.0; ++i)
-      q += step_s * (coolant[i] - q) / 500.0;
-    o.value += 6.0 * q;
-  }
-  DiscrepancyOptions options;
-  options.accept = {"coolant.shock.x"};
-  JobContext job;
-  EXPECT_TRUE(says(findDiscrepancy(input, options, job), "120 min behind"));
-}
-
 TEST(Clock, OffsetIsFoundWhereTheDataShowIt) {
   // Coolant acts quickly: readings that are stamped four minutes late show it.
   DiscrepancyInput input = inWorkshop(Hidden::Nothing, 9, {});

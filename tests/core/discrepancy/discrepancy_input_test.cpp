@@ -209,12 +209,12 @@ TEST(DiscrepancyInput, FitsNothingFromWhereTheSpindleSpeedChangedUnseen) {
   std::size_t change = 1;
   while (rpm[change] == rpm[change - 1]) ++change;
   std::vector<std::string> warnings;
-  const std::size_t all = comparableRows(input, warnings).fit.size();
+  const std::size_t all = comparableRows(input, 0.0, warnings).fit.size();
   EXPECT_TRUE(warnings.empty());
   // Three readings ten seconds before the row with the other speed, one at this row.
   for (std::size_t i = 0; i < 3; ++i) input.observations.rows[i].time_s = t[change] - 10.0;
   input.observations.rows[3].time_s = t[change];
-  const ComparableRows left = comparableRows(input, warnings);
+  const ComparableRows left = comparableRows(input, 0.0, warnings);
   EXPECT_EQ(left.fit.size(), all - 3);
   EXPECT_EQ(left.fit.front(), 3U);
   ASSERT_EQ(warnings.size(), 1U);
@@ -222,7 +222,7 @@ TEST(DiscrepancyInput, FitsNothingFromWhereTheSpindleSpeedChangedUnseen) {
   // A log that is as coarse everywhere is what there is.
   warnings.clear();
   for (Observation& o : input.observations.rows) o.time_s = t[change] - 10.0;
-  EXPECT_EQ(comparableRows(input, warnings).fit.size(), all);
+  EXPECT_EQ(comparableRows(input, 0.0, warnings).fit.size(), all);
   EXPECT_TRUE(warnings.empty());
 }
 

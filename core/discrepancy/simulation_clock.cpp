@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/discrepancy/simulation_clock.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <memory>
+#include <utility>
+
+namespace spindrift {
+namespace {
+
+using SeriesKey = std::pair<std::string, Component>;
+
+/// Squares of the deviations from the mean, in place.
+void deviationsSquared(std::vector<double>& values) {
+  double mean = 0.0;
+  for (const double v : values) mean += v / static_cast<double>(values.size());
+  for (double& v : values) v = (v - mean) * (v - mean);
+}
+
+/// Series of observations with what the simulation predicts at no offset; as many as can be looked at quickly.
+struct Compared {
+  std::vector<std::vector<std::pair<const Observation*, double>>> series;
+  double count = 0.0;
+  double first_s = std::numeric_limits<double>::infinity();
+  double last_s = -std::numeric_limits<double>::infinity();
+
+  [[nodiscard]] int quarterOf(double time_s) const {
+    return static_cast<int>(3.999 * (time_s - first_s) / std::max(1e-9, last_s - first_s));
+  }
+};
+
+Compared comparedSeries(const std::vector<Observation>& observations, const PredictedAt& predicted) {
+  std::map<SeriesKey, std::vector<std::pair<const Observation*, double>>> series;
+  for (const Observation& o : observations) {
+    if (o.use == ObservationUse::Fit && o.sigma > 0.0) series[{o.point, o.component}].emplace_back(&o, 0.0);
+  }
+  constexpr std::size_t most_observations = 6000;
+  constexpr std::size_t fewest_in_series = 6;
+  Compared out;
+  const std::size_t stride = std::max<std::size_t>(1, observations.size() / most_observations);
+  std::size_t index = 0;
+  for (auto& [key, members] : series) {
+    if (members.size() < fewest_in_series || index++ % stride != 0) continue;
+    for (auto& [o, now] : members) {
+      now = predicted(*o, o->time_s);
+      out.first_s = std::min(out.first_s, o->time_s);
+      out.last_s = std::max(out.last_s, o->time_s);
+    }
+    out.count += static_cast<double>(members.size());
+    out.series.push_back(std::move(members));
+  }
+  return out;
+}
+
+/// What is left with the simulation of another time, and with that of the same time at the same readings.
+struct Left {
+  double moved = 0.0;
+  double now = 0.0;
+  /// `moved` by what may be wrong in common: a component in a quarter of the time.
+  std::map<std::pair<Component, int>, double> parts;
+
+  [[nodiscard]] double ratio() const { return now > 0.0 ? moved / now : 1.0; }
+};
+
+Left leftAt(const Compared& compared, const PredictedAt& predicted, double offset_s) {
+  Left out;
+  std::vector<double> moved;
+  std::vector<double> now;
+  std::vector<const Observation*> which;
+  double count = 0.0;
+  for (const auto& series : compared.series) {
+    moved.clear();
+    now.clear();
+    which.clear();
+    for (const auto& [o, present] : series) {
+      const double then = predicted(*o, o->time_s + offset_s);
+      if (!std::isfinite(then) || !std::isfinite(present)) continue;
+      moved.push_back((o->value - then) / o->sigma);
+      now.push_back((o->value - present) / o->sigma);
+      which.push_back(o);
+    }
+    constexpr std::size_t fewest = 4;
+    if (moved.size() < fewest) continue;
+    deviationsSquared(moved);
+    deviationsSquared(now);
+    for (std::size_t i = 0; i < which.size(); ++i) {
+      out.moved += moved[i];
+      out.now += now[i];
+      out.parts[{which[i]->component, compared.quarterOf(which[i]->time_s)}] += moved[i];
+    }
+    count += static_cast<double>(moved.size());
+  }
+  // On a good part of the readings, or it says nothing.
+  if (2.0 * count < compared.count) return {};
+  return out;
+}
+
+}  // namespace
+
+std::string SimulationClock::sentence(bool followed) const {
+  const double minutes = std::abs(offset_s) / 60.0;
+  const char* way = offset_s > 0.0 ? "later" : "earlier";
+  const double less = 100.0 * (1.0 - scatter);
+  if (followed) {
+    return fmt::format(
+        "The observations agree far better with the simulation of about {:.0f} min {} ({:.0f} % less scatter), so they "
+        "are compared with simulation and log at that time: compare the clocks of observations.csv, log.csv and the "
+        "simulation.",
+        minutes, way, less);
+  }
+  return fmt::format(
+      "The observations agree far better with the simulation of about {:.0f} min {} ({:.0f} % less scatter): compare "
+      "the "
+      "clocks of observations.csv, log.csv and the simulation.",
+      minutes, way, less);
+}
+
+std::optional<SimulationClock> farSimulationClock(const std::vector<Observation>& observations,
+                                                  const PredictedAt& predicted) {
+  const Compared compared = comparedSeries(observations, predicted);
+  if (compared.series.empty()) return std::nullopt;
+  constexpr double coarse_s = 600.0;
+  constexpr double fine_s = 60.0;
+  constexpr int most_steps = 24;
+  double best_s = 0.0;
+  double best = 1.0;
+  const auto look = [&](double offset_s) {
+    const double ratio = leftAt(compared, predicted, offset_s).ratio();
+    if (ratio < best) {
+      best = ratio;
+      best_s = offset_s;
+    }
+  };
+  for (int k = -most_steps; k <= most_steps; ++k) look(k * coarse_s);
+  constexpr double far_better = 0.5;
+  if (best > far_better) return std::nullopt;
+  const double about_s = best_s;
+  for (int k = 1; k * fine_s < coarse_s; ++k) {
+    look(about_s - k * fine_s);
+    look(about_s + k * fine_s);
+  }
+  constexpr double far_s = 1200.0;
+  if (std::abs(best_s) < far_s) return std::nullopt;
+  const Left at = leftAt(compared, predicted, best_s);
+  const Left low = leftAt(compared, predicted, best_s - fine_s);
+  const Left high = leftAt(compared, predicted, best_s + fine_s);
+  SimulationClock out{best_s, fine_s, std::sqrt(best)};
+  const double curvature = low.moved + high.moved - 2.0 * at.moved;
+  if (low.moved > 0.0 && high.moved > 0.0 && curvature > 0.0) {
+    out.offset_s += fine_s * std::clamp(0.5 * (low.moved - high.moved) / curvature, -1.0, 1.0);
+    // What is missing in the simulation goes on for long and is the same at many points: the slopes of the parts say
+    // how far each of them would move the offset (the sandwich of Huber and White, parts as blocks). No clock is read
+    // better than to the minute.
+    double slopes = 0.0;
+    for (const auto& [part, value] : high.parts) {
+      const auto before = low.parts.find(part);
+      if (before != low.parts.end()) slopes += std::pow(0.5 * (value - before->second), 2);
+    }
+    out.standard_uncertainty_s = std::hypot(fine_s, fine_s * std::sqrt(slopes) / curvature);
+  }
+  return out;
+}
+
+PredictedAt predictedBetween(const std::vector<Observation>& observations, const std::vector<double>& predicted) {
+  auto series = std::make_shared<std::map<SeriesKey, std::vector<std::pair<double, double>>>>();
+  for (std::size_t i = 0; i < observations.size(); ++i) {
+    if (std::isfinite(predicted[i]))
+      (*series)[{observations[i].point, observations[i].component}].emplace_back(observations[i].time_s, predicted[i]);
+  }
+  for (auto& [key, values] : *series) std::sort(values.begin(), values.end());
+  return [series](const Observation& o, double time_s) {
+    const auto found = series->find({o.point, o.component});
+    if (found == series->end()) return std::numeric_limits<double>::quiet_NaN();
+    const auto& values = found->second;
+    if (time_s < values.front().first || time_s > values.back().first) return std::numeric_limits<double>::quiet_NaN();
+    const auto after = std::lower_bound(values.begin(), values.end(), std::make_pair(time_s, -1e300));
+    if (after->first == time_s || after == values.begin()) return after->second;
+    const auto before = std::prev(after);
+    const double part = (time_s - before->first) / std::max(1e-9, after->first - before->first);
+    return before->second + part * (after->second - before->second);
+  };
+}
+
+}  // namespace spindrift

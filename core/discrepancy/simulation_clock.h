@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+// Observations whose clock is far from that of the simulation: an hour of summer time, a microscope's computer that was
+// never set. Internal to core/discrepancy.
+//
+// A simulation is computed from the log, so its clock is that of the log. Where the observations agree far better with
+// what it predicts for another time, they are compared at that time, and so is the log.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/machine/observation.h"
+
+namespace spindrift {
+
+struct SimulationClock {
+  double offset_s = 0.0;  ///< clock of the simulation minus clock of the observations
+  double standard_uncertainty_s = 0.0;
+  double scatter = 1.0;  ///< rms of what is left about the mean of each series, over that at no offset
+
+  /// `followed`: they are compared at that time.
+  [[nodiscard]] std::string sentence(bool followed) const;
+};
+
+/// What the simulation predicts for an observation at a time of its own clock, um or urad; NaN where it does not.
+using PredictedAt = std::function<double(const Observation&, double time_s)>;
+
+/// The offset within four hours at which least is left of the observations, each series about its mean, to within
+/// minutes; none where that is less than twenty minutes or more than half of the squares remain, for then it may as
+/// well be a missing effect. Large campaigns are judged by part of their series.
+[[nodiscard]] std::optional<SimulationClock> farSimulationClock(const std::vector<Observation>& observations,
+                                                                const PredictedAt& predicted);
+
+/// From predictions at the times of the observations alone: linear in time between those of one series.
+[[nodiscard]] PredictedAt predictedBetween(const std::vector<Observation>& observations,
+                                           const std::vector<double>& predicted);
+
+}  // namespace spindrift
