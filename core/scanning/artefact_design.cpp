@@ -145,7 +145,7 @@ ArtefactDesign designArtefact(const ArtefactSurface& surface, const ArtefactDesi
     const Eigen::MatrixXd cross = normal.topRightCorner(6, drift) * own.eigenvectors();
     information -= cross * inverse.asDiagonal() * cross.transpose();
   }
-  const Eigen::SelfAdjointEigenSolver<Matrix6> solver(information);
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(information);
   const double best = solver.eigenvalues()[5];
   const double free_limit = RegistrationOptions{}.degenerate_ratio * best;
   Matrix6 covariance = Matrix6::Zero();

@@ -48,7 +48,7 @@ std::vector<std::string> freeDirections(const Matrix6& projector, int count, dou
       v.head<3>() = shifts.eigenvectors().col(i);
       rest -= v * v.transpose();
     }
-  const Eigen::SelfAdjointEigenSolver<Matrix6> others(rest);
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> others(rest);
   for (int i = 5; i >= 0 && static_cast<int>(names.size()) < count; --i) {
     if (others.eigenvalues()[i] < 0.5) break;
     const Eigen::Vector3d shift = others.eigenvectors().col(i).head<3>();

@@ -167,7 +167,7 @@ RegistrationSolver::Outcome RegistrationSolver::solve(ScanMotion motion, const s
     // Solve in scaled parameters; directions that the surface does not determine are left where they are.
     const VectorP scale_of = scales(out.normal, out.prior);
     const MatrixP scaled = scale_of.cwiseInverse().asDiagonal() * out.normal * scale_of.cwiseInverse().asDiagonal();
-    const Eigen::SelfAdjointEigenSolver<MatrixP> eigen(scaled);
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scaled);
     VectorP step = VectorP::Zero(n);
     out.free.setZero();
     out.free_count = 0;
@@ -205,7 +205,7 @@ MatrixP RegistrationSolver::inverseNormal(const Outcome& outcome) const {
   // In scaled parameters.
   const VectorP scale = scales(outcome.normal, outcome.prior);
   const MatrixP scaled = scale.cwiseInverse().asDiagonal() * outcome.normal * scale.cwiseInverse().asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<MatrixP> eigen(scaled);
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scaled);
   const int n = outcome.motion.parameters();
   MatrixP inverse = MatrixP::Zero(n, n);
   for (int i = 0; i < n; ++i)

@@ -95,7 +95,7 @@ std::map<std::string, Matrix6> referenceNoise(const std::vector<ScanResult>& sca
 Matrix6 symmetricRoot(const Matrix6& covariance) {
   const Vector6 size = covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
   const Vector6 inverse = size.unaryExpr([](double v) { return v > 0.0 ? 1.0 / v : 0.0; });
-  const Eigen::SelfAdjointEigenSolver<Matrix6> modes(inverse.asDiagonal() * covariance * inverse.asDiagonal());
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(inverse.asDiagonal() * covariance * inverse.asDiagonal());
   return size.asDiagonal() * modes.eigenvectors() * modes.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal() *
          modes.eigenvectors().transpose();
 }
