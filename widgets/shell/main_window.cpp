@@ -144,6 +144,8 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent), workflow_(session
     showStep();
   });
   connect(&session_, &SessionModel::inputsChanged, this, &MainWindow::refreshPage);
+  // Whoever asked for it: a page shows what is stored.
+  connect(&session_, &SessionModel::resultChanged, this, &MainWindow::refreshPage);
   connect(campaign_, &QComboBox::activated, this, [this](int) {
     const auto id = campaign_->currentData().toLongLong();
     if (id == session_.campaignId()) return;

@@ -11,6 +11,7 @@
 #include "tests/widgets/support/story_support.h"
 #include "widgets/commands/commands.h"
 #include "widgets/jobs/job_bar.h"
+#include "widgets/pages/discrepancy/discrepancy_page.h"
 #include "widgets/pages/page.h"
 #include "widgets/shell/command_palette.h"
 #include "widgets/shell/step_list.h"
@@ -190,6 +191,8 @@ TEST_F(CampaignsTest, WhatIsOutdatedIsRunAsOne) {
   window_->undoStack().push(new ExcludeCommand(session(), {reading}, QStringLiteral("disturbed")));
   for (const std::string& task : once) EXPECT_FALSE(session().state(task).current) << task;
   EXPECT_TRUE(whyNot("Run what is outdated").isEmpty());
+  window_->workflow().goTo(StepId::Discrepancy);
+  wait();
   trigger("Run what is outdated");
   EXPECT_TRUE(window_->jobs().busy());
   wait();
@@ -201,6 +204,10 @@ TEST_F(CampaignsTest, WhatIsOutdatedIsRunAsOne) {
     EXPECT_EQ(r.provenance.inputs.at("exclusions").size(), newest ? 1U : 0U) << r.kind;
   }
   for (const std::string& task : once) EXPECT_TRUE(session().state(task).current) << task;
+  auto* shown = page<DiscrepancyPage>();
+  ASSERT_NE(shown, nullptr);
+  ASSERT_NE(shown->story(), nullptr);
+  EXPECT_EQ(shown->story()->json(), session().latest("discrepancy")->payload) << "the page at hand shows what was run";
   EXPECT_TRUE(said(QStringLiteral("all results are current")));
   EXPECT_THAT(kinds(second_), ::testing::IsEmpty());
   for (const StepId step : {StepId::Model, StepId::Compensate, StepId::Report})
