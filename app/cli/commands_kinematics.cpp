@@ -5,6 +5,7 @@
 
 #include "app/cli/command.h"
 #include "app/cli/picture_files.h"
+#include "app/cli/session_source.h"
 #include "core/base/atomic_file.h"
 #include "core/base/text.h"
 #include "core/base/unit_text.h"
@@ -18,6 +19,7 @@ namespace {
 
 struct FitArguments {
   std::string campaign;
+  std::string of_session;  ///< name of a campaign
   std::string observations;
   std::string model = "nine-parameter";
   std::string state;
@@ -173,7 +175,22 @@ CommandResult runPlacement(const FitArguments& a, JobContext& job) {
   return {answer.json(), answer.summary(), answer.result.status == FitStatus::Converged ? Done : NotGoodEnough};
 }
 
+/// Of a session: what it keeps, if that still holds, else worked out and kept.
+CommandResult checkInSession(const FitArguments& a, JobContext& job, const std::string& task) {
+  if (!a.observations.empty())
+    throw InputError({a.campaign, ""},
+                     "is a session, which keeps its own observations; --observations is for the folder of a campaign.");
+  SessionSource source(a.campaign, a.of_session, job);
+  const bool made = !source.tasks().run(task, job).empty();
+  const nlohmann::json& stored = source.tasks().graph().latest(task)->payload;
+  const CheckResult result = checkResultOf(resolutionCheckFrom(stored));
+  return {stored, made ? result.summary : result.summary + "taken from the session: still current\n",
+          result.passed ? Done : NotGoodEnough};
+}
+
 CommandResult runCheck(const FitArguments& a, JobContext& job, const std::string& which) {
+  if (which != "warm-up" && isSession(a.campaign))
+    return checkInSession(a, job, which == "validate-jogs" ? "check-jogs" : "check-repeatability");
   const Campaign campaign = Campaign::read(a.campaign);
   const ObservationSet observations = observationsOf(campaign, a.observations, {}, job);
   CheckResult result;
@@ -267,8 +284,16 @@ void addKinematicsCommands(CLI::App& app, CommandLine& line) {
                      "Drift in µm/h below which the instrument is regarded as stable")
         ->check(positiveNumber());
   }
-  addCheck("validate-jogs", "Validate measured axis steps (jogs), one per state, against the axis resolution");
-  addCheck("repeatability", "Cold repeatability: all states measured cold; verdict against half the axis resolution");
+  const std::string kept = "; of a session, the result is kept there";
+  for (const auto& [name, description] :
+       {std::pair("validate-jogs", "Validate measured axis steps (jogs), one per state, against the axis resolution"),
+        std::pair("repeatability",
+                  "Cold repeatability: all states measured cold; verdict against half the axis resolution")}) {
+    const auto [command, a] = addCheck(name, description + kept);
+    command->get_option("CAMPAIGN")->description("Folder of the campaign, or of a session");
+    command->add_option("--campaign", a->of_session, "Campaign of the session; default: the one opened last")
+        ->type_name("NAME");
+  }
 }
 
 }  // namespace spindrift::cli

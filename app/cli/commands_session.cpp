@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "app/cli/command.h"
 #include "app/cli/session_source.h"
@@ -17,10 +18,12 @@
 namespace spindrift::cli {
 namespace {
 
+constexpr auto outdated_tasks = "outdated";
+
 struct SessionArguments {
   std::string folder;
   std::string campaign;
-  std::string run;  ///< task
+  std::string run;  ///< task, or outdated_tasks
 };
 
 nlohmann::json stepsOf(const Session& session, const CampaignRecord& record, std::string& summary) {
@@ -58,10 +61,17 @@ CommandResult stateOf(const SessionArguments& arguments, JobContext& job) {
   if (!arguments.run.empty()) {
     // Closed again before the session is looked at.
     SessionSource source(arguments.folder, arguments.campaign, job);
-    const std::vector<std::string> ran = source.tasks().run(arguments.run, job);
+    const bool outdated = arguments.run == outdated_tasks;
+    std::vector<std::string> failures;
+    const std::vector<std::string> ran =
+        outdated ? source.tasks().runOutdated(job, failures) : source.tasks().run(arguments.run, job);
     result.json["ran"] = ran;
-    result.summary += ran.empty() ? fmt::format("{} is current: nothing was run\n", arguments.run)
-                                  : fmt::format("run: {}\n", joinedList(ran));
+    result.summary += !ran.empty()        ? fmt::format("run: {}\n", joinedList(ran))
+                      : !failures.empty() ? std::string()
+                      : outdated          ? "nothing is outdated: nothing was run\n"
+                                          : fmt::format("{} is current: nothing was run\n", arguments.run);
+    if (!failures.empty()) result.exit_status = NotGoodEnough;
+    result.warnings = std::move(failures);
   }
   Session session = Session::open(arguments.folder);
   result.json["campaigns"] = nlohmann::json::array();
@@ -86,6 +96,8 @@ CommandResult stateOf(const SessionArguments& arguments, JobContext& job) {
 
 void addSessionCommands(CLI::App& app, CommandLine& line) {
   auto arguments = std::make_shared<SessionArguments>();
+  std::vector<std::string> allowed = tasksWithWork();
+  allowed.emplace_back(outdated_tasks);
   CLI::App* command = addCommand(app, line, "session",
                                  "Show the status of every campaign of a session: what is done, outdated (and why) or "
                                  "blocked; input files are compared with those that the results were calculated from",
@@ -94,12 +106,14 @@ void addSessionCommands(CLI::App& app, CommandLine& line) {
       ->required();
   command->add_option("--campaign", arguments->campaign, "Only the campaign of this name")->type_name("NAME");
   command
-      ->add_option("--run", arguments->run,
-                   "Run what is needed first so that this task is current, with the options that the session keeps, of "
-                   "--campaign or the campaign opened last: evaluate the captures before a fit, fit before a "
-                   "compensation; results that are still current are used again")
+      ->add_option(
+          "--run", arguments->run,
+          "Run what is needed first so that this task is current, with the options that the session keeps, of "
+          "--campaign or the campaign opened last: evaluate the captures before a fit, fit before a "
+          "compensation; results that are still current are used again. \"simulation\" runs the programs that "
+          "the simulator names; \"outdated\" runs every task, but that one, whose result is not current any more")
       ->type_name("TASK")
-      ->check(CLI::IsMember(tasksWithWork()));
+      ->check(CLI::IsMember(allowed));
 }
 
 }  // namespace spindrift::cli

@@ -17,7 +17,7 @@ ResolutionCheck checkAgainstResolution(const ObservationSet& observations, const
   const std::vector<std::string> states = observations.states();
   if (states.size() < 2) {
     check.status = FitStatus::Degenerate;
-    check.reason = "there is only one state: nothing to compare.";
+    check.reason = "There is only one state: nothing to compare.";
     return check;
   }
   constexpr std::array<const char*, 3> names{"X", "Y", "Z"};
@@ -68,14 +68,14 @@ ResolutionCheck checkAgainstResolution(const ObservationSet& observations, const
   }
   if (check.axes.empty()) {
     check.status = FitStatus::Degenerate;
-    check.reason = "no point was measured in more than one state.";
+    check.reason = "No point was measured in more than one state.";
     return check;
   }
   check.status = FitStatus::Converged;
   check.passed = failed.empty();
   check.reason = check.passed
-                     ? fmt::format("passed: all differences stay within {} times the resolution of their axis.", part)
-                     : fmt::format("not passed: {}.", joinedList(failed));
+                     ? fmt::format("Passed: all differences stay within {} times the resolution of their axis.", part)
+                     : fmt::format("Not passed: {}.", joinedList(failed));
   return check;
 }
 

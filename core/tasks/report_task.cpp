@@ -12,15 +12,11 @@
 namespace spindrift {
 namespace {
 
-std::filesystem::path whole(const std::filesystem::path& path) {
-  return std::filesystem::absolute(path).lexically_normal();
-}
-
 /// The result that made the simulator at hand, without its payload; nothing if there is none.
 std::optional<StoredResult> simulationUpdateOf(const TaskGraph& graph) {
-  const std::string simulator = currentSimulator(graph.session(), graph.campaign(), graph.data());
+  const std::string simulator = SimulationOptions::of(graph.session(), graph.campaign(), graph.data()).simulator;
   if (simulator.empty()) return {};
-  const std::vector<StoredResult> all = graph.session().resultHeads(graph.campaign(), simulation_result);
+  const std::vector<StoredResult> all = graph.session().resultHeads(graph.campaign(), "simulation");
   for (auto it = all.rbegin(); it != all.rend(); ++it) {
     if (it->provenance.options.value("version", "") == simulator) return *it;
   }
@@ -60,19 +56,6 @@ StoredResults storedOf(const TaskGraph& graph) {
 }
 
 }  // namespace
-
-std::string simulatorName(const Session& session, const std::filesystem::path& file) {
-  const std::filesystem::path relative = whole(file).lexically_relative(whole(session.folder()));
-  const bool within = !relative.empty() && *relative.begin() != "..";
-  return within ? relative.generic_string() : whole(file).generic_string();
-}
-
-std::string currentSimulator(const Session& session, std::int64_t id, const Campaign& campaign) {
-  const auto chosen = session.setting(campaignKey(option_keys::simulator, id));
-  if (chosen && chosen->is_string()) return chosen->get<std::string>();
-  return campaign.simulator.empty() ? std::string()
-                                    : simulatorName(session, campaign.path(campaign.simulator.string()));
-}
 
 ReportTask ReportTask::of(const TaskGraph& graph, const ExcludedItems& excluded) {
   const Session& session = graph.session();

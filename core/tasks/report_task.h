@@ -13,16 +13,6 @@
 
 namespace spindrift {
 
-/// Kind of the stored searches with a simulator: SimulationStory::json. Their options "simulator" and "version" name
-/// the simulator that was searched with and the new version that was written (empty: none), "choice" what the search
-/// left out.
-inline constexpr auto simulation_result = "simulation";
-/// What the session calls a simulator.json: relative to its folder, if it lies there.
-[[nodiscard]] std::string simulatorName(const Session& session, const std::filesystem::path& file);
-/// The name of the simulator that the session takes for a campaign: chosen or written last, else named by
-/// campaign.json. Empty: none.
-[[nodiscard]] std::string currentSimulator(const Session& session, std::int64_t id, const Campaign& campaign);
-
 /// Everything a report is made of, copied: to be worked on by any thread.
 struct ReportTask {
   std::shared_ptr<const Campaign> campaign;  ///< with the effects as edited; what was excluded is marked

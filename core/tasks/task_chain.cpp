@@ -24,6 +24,44 @@ std::optional<std::string> TaskChain::next(const TaskGraph& graph) {
   return first;
 }
 
+std::optional<std::string> OutdatedChain::next(const TaskGraph& graph) {
+  const auto begun = [this](const std::string& task) {
+    return std::find(started_.begin(), started_.end(), task) != started_.end();
+  };
+  for (const std::string& task : graph.tasks()) {
+    if (task == "simulation") continue;
+    const TaskStatus status = graph.status(task);
+    if (status.result == 0 || status.current || !graph.whyNot(task).empty()) continue;
+    const std::vector<std::string> order = graph.needed(task);
+    if (order.empty() || std::any_of(order.begin(), order.end(), begun)) continue;
+    started_.push_back(order.front());
+    return order.front();
+  }
+  return std::nullopt;
+}
+
+void CampaignTasks::runOne(const std::string& task, JobContext& job) {
+  job.report(0.0, task);
+  job.throwIfCancelled();
+  state_.excluded = excludedItems(session_, state_.id);
+  const ResultOrigin origin = graph().origin(task);
+  const TaskWork work = prepareTask(task, graph(), TaskInputs::of(session_, state_));
+  ledger_.started(origin);
+  try {
+    const TaskResult result = work(job, TaskOutput::Payload);
+    ledger_.ended(origin);
+    state_.latest[task] = session_.keepResult(origin, result.payload);
+  } catch (const InputError& e) {
+    ledger_.failed(origin, e.what());
+    throw;
+  } catch (...) {
+    ledger_.ended(origin);
+    throw;
+  }
+  if (const auto& kept = state_.latest[task]; task == "evaluate" && kept)
+    state_.evaluation = std::make_shared<const StoredEvaluation>(evaluationFrom(*kept));
+}
+
 std::vector<std::string> CampaignTasks::run(const std::string& task, JobContext& job, bool anew) {
   std::vector<std::string> ran;
   TaskChain chain(task, anew);
@@ -31,26 +69,25 @@ std::vector<std::string> CampaignTasks::run(const std::string& task, JobContext&
   while (const auto next = chain.next(graph())) {
     const double done = std::min(1.0, static_cast<double>(ran.size()) / steps);
     JobContext part = job.part(done, std::min(1.0, done + 1.0 / steps));
-    part.report(0.0, *next);
-    part.throwIfCancelled();
-    state_.excluded = excludedItems(session_, state_.id);
-    const ResultOrigin origin = graph().origin(*next);
-    const TaskWork work = prepareTask(*next, graph(), TaskInputs::of(session_, state_));
-    ledger_.started(origin);
-    try {
-      const TaskResult result = work(part, TaskOutput::Payload);
-      ledger_.ended(origin);
-      state_.latest[*next] = session_.keepResult(origin, result.payload);
-    } catch (const InputError& e) {
-      ledger_.failed(origin, e.what());
-      throw;
-    } catch (...) {
-      ledger_.ended(origin);
-      throw;
-    }
-    if (const auto& kept = state_.latest[*next]; *next == "evaluate" && kept)
-      state_.evaluation = std::make_shared<const StoredEvaluation>(evaluationFrom(*kept));
+    runOne(*next, part);
     ran.push_back(*next);
+  }
+  return ran;
+}
+
+std::vector<std::string> CampaignTasks::runOutdated(JobContext& job, std::vector<std::string>& failures) {
+  std::vector<std::string> ran;
+  OutdatedChain chain;
+  const auto most = static_cast<double>(graph().tasks().size());
+  while (const auto next = chain.next(graph())) {
+    const auto done = static_cast<double>(chain.started().size() - 1);
+    JobContext part = job.part(done / most, (done + 1.0) / most);
+    try {
+      runOne(*next, part);
+      ran.push_back(*next);
+    } catch (const InputError& e) {
+      failures.push_back(fmt::format("{} failed: {}", *next, e.what()));
+    }
   }
   return ran;
 }

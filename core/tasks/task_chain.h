@@ -32,6 +32,19 @@ class TaskChain {
   std::map<std::string, nlohmann::json> started_;  ///< what each was started with
 };
 
+/// What is to be run so that every result that there is holds again; what was never run stays so, and a simulator is
+/// run only when it is asked for. One after the other, each once: what fails, or is outdated by a change meanwhile,
+/// stays so with what is made from it.
+class OutdatedChain {
+ public:
+  /// What is to be started now; nothing: the chain is at its end.
+  [[nodiscard]] std::optional<std::string> next(const TaskGraph& graph);
+  [[nodiscard]] const std::vector<std::string>& started() const { return started_; }
+
+ private:
+  std::vector<std::string> started_;
+};
+
 /// A campaign of a session on which tasks are run without a window. The session has to live as long.
 class CampaignTasks {
  public:
@@ -44,8 +57,13 @@ class CampaignTasks {
   /// takes the exclusions as the session holds them then. Returns what was run, in order. Throws InputError: blocked,
   /// or why one failed (nothing after it is run); Cancelled. `anew` as in TaskChain.
   std::vector<std::string> run(const std::string& task, JobContext& job, bool anew = false);
+  /// The same for everything that is outdated (OutdatedChain). What fails ends nothing: its sentence is in `failures`.
+  std::vector<std::string> runOutdated(JobContext& job, std::vector<std::string>& failures);
 
  private:
+  /// Of the task as it is now.
+  void runOne(const std::string& task, JobContext& job);
+
   Session& session_;
   CampaignState state_;
   TaskLedger ledger_;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 
 #include "core/base/count_text.h"
 #include "core/base/error.h"
@@ -52,7 +53,22 @@ std::string described(const std::string& input, const nlohmann::json& then, cons
   if (input == "notes") return "the notes";
   if (input == "plan") return "the measurement plan";
   if (input == "reasons") return "reasons of exclusions";
+  if (input == "simulator") return "the simulator";
   return input;
+}
+
+bool isInstrumentCheck(const std::string& task) {
+  return task == "check-jogs" || task == "check-repeatability";
+}
+
+/// A search with a simulator that wrote a new version of it counts as one with the version while that is at hand.
+Provenance asOfVersion(Provenance then, const ResultOrigin& now) {
+  const std::string version = then.options.value("version", "");
+  then.options["version"] = "";
+  if (version.empty() || version != now.options.value("simulator", "")) return then;
+  then.options["simulator"] = version;
+  then.inputs["simulator"] = then.options.value("written", "");
+  return then;
 }
 
 }  // namespace
@@ -114,13 +130,15 @@ bool TaskGraph::overTime() const {
 std::vector<std::string> TaskGraph::tasks() const {
   std::vector<std::string> all;
   if (facts_.captures()) all.insert(all.end(), {"check", "evaluate"});
+  const bool has_simulator = !SimulationOptions::of(session_, campaign_, *data_).simulator.empty();
   if (facts_.log_only) {
     all.insert(all.end(), {"thermal", "log-compensation", "report"});
     return all;
   }
-  all.emplace_back("fit");
+  all.insert(all.end(), {"check-jogs", "check-repeatability", "fit"});
   if (facts_.log) all.emplace_back("thermal");
   if (facts_.simulation) all.emplace_back("discrepancy");
+  if (has_simulator) all.emplace_back("simulation");
   all.insert(all.end(), {"compensation", "verify", "report"});
   return all;
 }
@@ -146,6 +164,8 @@ nlohmann::json TaskGraph::options(const std::string& task) const {
   if (task == "thermal") return {{"model", "thermal"}, {"options", object(option_keys::thermal)}};
   const nlohmann::json effects = EffectOptions::of(session_, campaign_).json();
   if (task == "discrepancy") return {{"discrepancy", effects}};
+  if (task == "simulation") return SimulationOptions::of(session_, campaign_, *data_).json();
+  if (isInstrumentCheck(task)) return {{"part", allowedPart(task)}};
   if (task == "compensation") {
     const CompensationRequest request = compensationRequest(session_, campaign_, latest_("fit") != nullptr);
     return {{"options", object(option_keys::compensation)},
@@ -192,6 +212,10 @@ nlohmann::json TaskGraph::inputsOfResults(const std::string& task) const {
     inputs["reasons"] = reasons.text();
     inputs["plan"] = Fingerprint().add(plan.dump()).text();
   }
+  if (task == "simulation") {
+    const std::string name = SimulationOptions::of(session_, campaign_, *data_).simulator;
+    inputs["simulator"] = name.empty() ? std::string() : simulatorFingerprint(simulatorFile(session_, name));
+  }
   if (task == "verify") {
     const std::string folder = VerifyOptions::of(session_, campaign_).after;
     inputs["after"] = "";
@@ -209,17 +233,20 @@ ResultOrigin TaskGraph::origin(const std::string& task, const nlohmann::json& mo
 
 std::vector<std::string> TaskGraph::changes(const StoredResult& result) const {
   const ResultOrigin now = origin(result.kind);
-  const nlohmann::json& then = result.provenance.inputs;
-  if (then.empty()) return {"what it was made from is not known to this version"};
+  const std::optional<Provenance> of_version =
+      result.kind == "simulation" ? std::optional(asOfVersion(result.provenance, now)) : std::nullopt;
+  const Provenance& then = of_version ? *of_version : result.provenance;
+  if (result.provenance.inputs.empty()) return {"what it was made from is not known to this version"};
   std::vector<std::string> changed;
   for (const auto& [name, value] : now.inputs.items()) {
-    const nlohmann::json before = then.value(name, nlohmann::json());
+    const nlohmann::json before = then.inputs.value(name, nlohmann::json());
     if (before != value) changed.push_back(described(name, before, value));
   }
   // Options beyond those that the session keeps belong to whoever added them.
   for (const auto& [name, value] : now.options.items()) {
-    if (result.provenance.options.value(name, nlohmann::json()) == value) continue;
-    changed.push_back(name == "discrepancy" || name == "notes" ? described(name, {}, {}) : "the options");
+    if (then.options.value(name, nlohmann::json()) == value) continue;
+    const bool named = name == "discrepancy" || name == "notes" || name == "simulator";
+    changed.push_back(named ? described(name, {}, {}) : "the options");
   }
   for (const std::string& kind : madeFrom(result.kind)) {
     const StoredResult* from = latest_(kind);
@@ -242,13 +269,16 @@ std::string TaskGraph::blockedBecause(const std::string& task) const {
   if (task == "log-compensation")
     return latest_("thermal") != nullptr ? std::string() : "Identify a model over time first (Model).";
   if (task == "discrepancy" && !facts_.simulation) return "This campaign comes without a simulation to compare with.";
+  if (task == "simulation" && SimulationOptions::of(session_, campaign_, *data_).simulator.empty())
+    return "There is no simulator to search with: campaign.json names none and none was chosen (Discrepancy).";
   if (isReport(task)) return canReport(*data_, hasObservations()) ? std::string() : "There is nothing to report yet.";
   if (task == "verify" && facts_.log_only)
     return "A log alone has no plan that could be measured again. Log the machine with the compensation on and open "
            "that log as a campaign of its own.";
   if (task == "compensation" && latest_("fit") == nullptr && EffectOptions::of(session_, campaign_).added.empty())
     return facts_.simulation ? "Fit a model or add a missing effect to the simulation first." : "Fit a model first.";
-  if (task == "fit" || task == "discrepancy" || task == "compensation" || task == "verify")
+  if (task == "fit" || task == "discrepancy" || task == "simulation" || task == "compensation" || task == "verify" ||
+      isInstrumentCheck(task))
     return hasObservations() ? std::string() : "Evaluate the captures first (Calibrate).";
   return {};
 }

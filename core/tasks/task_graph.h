@@ -8,6 +8,7 @@
 //                          +--- thermal --- log-compensation +--- report
 //                          +--- discrepancy                 |
 //                          +--- verify ---------------------+
+//                          +--- check-jogs, check-repeatability, simulation (a search that runs a simulator)
 //
 // A result is current if every input is what it was when the work on it started, and every result that it was made from
 // is current itself. An input of another result is that result's own fingerprint: evaluating again with nothing changed

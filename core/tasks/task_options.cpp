@@ -7,6 +7,8 @@
 #include <cmath>
 
 #include "core/base/atomic_file.h"
+#include "core/base/error.h"
+#include "core/session/fingerprint.h"
 #include "core/workflows/campaign_series.h"
 
 namespace spindrift {
@@ -30,6 +32,10 @@ namespace {
 nlohmann::json objectOf(const Session& session, std::int64_t campaign, const std::string& key) {
   nlohmann::json value = session.setting(campaignKey(key, campaign)).value_or(nlohmann::json::object());
   return value.is_object() ? value : nlohmann::json::object();
+}
+
+std::filesystem::path whole(const std::filesystem::path& path) {
+  return std::filesystem::absolute(path).lexically_normal();
 }
 
 }  // namespace
@@ -69,6 +75,44 @@ std::shared_ptr<const Campaign> EffectOptions::applied(std::shared_ptr<const Cam
   auto copy = std::make_shared<Campaign>(*campaign);
   copy->effects = std::filesystem::absolute(file);
   return copy;
+}
+
+SimulationOptions SimulationOptions::of(const Session& session, std::int64_t campaign, const Campaign& data) {
+  SimulationOptions options;
+  options.effects = EffectOptions::of(session, campaign);
+  const auto chosen = session.setting(campaignKey(option_keys::simulator, campaign));
+  if (chosen && chosen->is_string()) {
+    options.simulator = chosen->get<std::string>();
+  } else if (!data.simulator.empty()) {
+    options.simulator = simulatorName(session, data.path(data.simulator.string()));
+  }
+  return options;
+}
+
+nlohmann::json SimulationOptions::json() const {
+  nlohmann::json choice = effects.json();
+  choice.erase("added");
+  return {{"simulator", simulator}, {"version", ""}, {"choice", std::move(choice)}};
+}
+
+std::string simulatorName(const Session& session, const std::filesystem::path& file) {
+  const std::filesystem::path relative = whole(file).lexically_relative(whole(session.folder()));
+  const bool within = !relative.empty() && *relative.begin() != "..";
+  return within ? relative.generic_string() : whole(file).generic_string();
+}
+
+std::filesystem::path simulatorFile(const Session& session, const std::string& name) {
+  return whole(session.folder()) / name;
+}
+
+std::string simulatorFingerprint(const std::filesystem::path& file) try {
+  return Fingerprint().addFile(file).text();
+} catch (const InputError&) {
+  return {};
+}
+
+double allowedPart(const std::string& check) {
+  return check == "check-repeatability" ? 0.5 : 1.0;
 }
 
 NineParameterOptions nineParameterOptions(const nlohmann::json& json) {

@@ -62,6 +62,25 @@ struct EffectOptions {
                                                         const std::filesystem::path& file) const;
 };
 
+/// The simulator that is searched with. Its results are kept with "version" beside, the name of the new version that
+/// was written (empty: none), and "written", what that was; whoever puts something into the simulation adds both.
+struct SimulationOptions {
+  std::string
+      simulator;  ///< as `simulatorName` calls it: chosen or written last, else named by campaign.json; or empty
+  EffectOptions effects;  ///< those added stay out: the simulator is to make them unnecessary
+  [[nodiscard]] static SimulationOptions of(const Session& session, std::int64_t campaign, const Campaign& data);
+  [[nodiscard]] nlohmann::json json() const;
+};
+/// What the session calls a simulator.json: relative to its folder, if it lies there.
+[[nodiscard]] std::string simulatorName(const Session& session, const std::filesystem::path& file);
+[[nodiscard]] std::filesystem::path simulatorFile(const Session& session, const std::string& name);
+/// SHA-256 of a simulator.json; empty where it cannot be read.
+[[nodiscard]] std::string simulatorFingerprint(const std::filesystem::path& file);
+
+/// Largest difference that a check of the instrument allows, as a part of the resolution of the axis: 1 for
+/// "check-jogs", 0.5 for "check-repeatability".
+[[nodiscard]] double allowedPart(const std::string& check);
+
 /// Of the model of one thermal state.
 [[nodiscard]] NineParameterOptions nineParameterOptions(const nlohmann::json& json);
 

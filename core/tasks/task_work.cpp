@@ -23,6 +23,9 @@
 #include "core/workflows/discrepancy_story.h"
 #include "core/workflows/evaluate_campaign.h"
 #include "core/workflows/fit_campaign.h"
+#include "core/workflows/instrument_checks.h"
+#include "core/workflows/open_simulator.h"
+#include "core/workflows/simulation_story.h"
 #include "core/workflows/thermal_workflow.h"
 #include "core/workflows/verify_compensation.h"
 
@@ -199,6 +202,21 @@ TaskWork discrepancyWork(const TaskGraph& graph, const TaskInputs& in) {
   };
 }
 
+template <CheckResult (*check)(const ObservationSet&, const MachineDescription&)>
+TaskWork instrumentCheckWork(const TaskGraph& /*graph*/, const TaskInputs& in) {
+  return [campaign = in.campaign, observations = in.observations](JobContext&, TaskOutput) -> TaskResult {
+    return {check(*observations, campaign->machine).json, {}};
+  };
+}
+
+TaskWork simulationWork(const TaskGraph& graph, const TaskInputs& in) {
+  return [task = SimulationTask::of(graph, in)](JobContext& job, TaskOutput) -> TaskResult {
+    DiscrepancyRun run = task.search(job);
+    nlohmann::json payload = SimulationStory::of(run).json();
+    return {std::move(payload), shared(std::move(run))};
+  };
+}
+
 TaskWork compensationWork(const TaskGraph& graph, const TaskInputs& in) {
   return [campaign = withoutExcluded(*in.campaign, in.excluded), observations = in.observations,
           effects = EffectOptions::of(graph.session(), graph.campaign()),
@@ -240,15 +258,19 @@ TaskWork reportWork(const TaskGraph& graph, const TaskInputs& in) {
 }
 
 /// Each after those it is made from.
-constexpr std::array<std::pair<std::string_view, Prepare>, 9> works{{{"check", checkWork},
-                                                                     {"evaluate", evaluateWork},
-                                                                     {"fit", fitWork},
-                                                                     {"thermal", thermalWork},
-                                                                     {"log-compensation", logCompensationWork},
-                                                                     {"discrepancy", discrepancyWork},
-                                                                     {"compensation", compensationWork},
-                                                                     {"verify", verifyWork},
-                                                                     {"report", reportWork}}};
+constexpr std::array<std::pair<std::string_view, Prepare>, 12> works{
+    {{"check", checkWork},
+     {"evaluate", evaluateWork},
+     {"check-jogs", instrumentCheckWork<checkJogs>},
+     {"check-repeatability", instrumentCheckWork<checkRepeatability>},
+     {"fit", fitWork},
+     {"thermal", thermalWork},
+     {"log-compensation", logCompensationWork},
+     {"discrepancy", discrepancyWork},
+     {"simulation", simulationWork},
+     {"compensation", compensationWork},
+     {"verify", verifyWork},
+     {"report", reportWork}}};
 
 }  // namespace
 
@@ -262,6 +284,32 @@ TaskInputs TaskInputs::of(const Session& session, const CampaignState& state) {
   return inputs;
 }
 
+SimulationTask SimulationTask::of(const TaskGraph& graph, const TaskInputs& inputs) {
+  const SimulationOptions options = SimulationOptions::of(graph.session(), graph.campaign(), graph.data());
+  if (options.simulator.empty()) throw InputError(graph.status("simulation").reason);
+  return {simulatorFile(graph.session(), options.simulator), options.effects,
+          EffectOptions::file(graph.session(), graph.campaign()), withoutExcluded(*inputs.campaign, inputs.excluded),
+          inputs.observations};
+}
+
+DiscrepancyRun SimulationTask::search(JobContext& job) const {
+  const auto with = effects.applied(campaign, effects_file);
+  DiscrepancyOptions options;
+  options.reject = effects.rejected;
+  return searchDiscrepancy(*with, *observations, options, *openSimulator(simulator, *with, *observations), job);
+}
+
+DiscrepancyRun SimulationTask::putInto(const std::filesystem::path& folder, const IntoSimulationOptions& options,
+                                       const DiscrepancyRun* before, JobContext& job) const {
+  // Answers of the simulator are kept: a search of an earlier session is made again quickly.
+  JobContext searching = job.part(0.0, 0.4);
+  DiscrepancyRun run = before != nullptr ? *before : search(searching);
+  JobContext fitting = job.part(before != nullptr ? 0.0 : 0.4, 1.0);
+  const auto with = effects.applied(campaign, effects_file);
+  run.update = updateSimulation(*with, run, *openSimulator(simulator, *with, *observations), options, folder, fitting);
+  return run;
+}
+
 std::vector<std::string> tasksWithWork() {
   std::vector<std::string> names;
   for (const auto& [name, prepare] : works) names.emplace_back(name);
@@ -272,8 +320,11 @@ TaskWork prepareTask(const std::string& task, const TaskGraph& graph, const Task
   const auto found = std::find_if(works.begin(), works.end(), [&](const auto& one) { return one.first == task; });
   if (found == works.end()) throw InputError(fmt::format("{} is no task of a campaign.", task));
   const bool fits_points = task == "fit" && !graph.facts().touches && !graph.facts().scans;
-  if ((fits_points || task == "discrepancy" || task == "compensation" || task == "verify") &&
-      inputs.observations == nullptr)
+  constexpr std::array of_observations{"check-jogs", "check-repeatability", "discrepancy",
+                                       "simulation", "compensation",        "verify"};
+  const bool wants_observations =
+      std::find(of_observations.begin(), of_observations.end(), task) != of_observations.end();
+  if ((fits_points || wants_observations) && inputs.observations == nullptr)
     throw InputError("Evaluate the captures first (Calibrate).");
   return found->second(graph, inputs);
 }

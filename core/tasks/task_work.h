@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The work behind every task of a campaign: prepared where the session lives, by copying what it needs, and run
 // anywhere. Pages, the command line and the report start the same work, so that what is shown, stored and reported is
-// one. Tasks that are not here belong to a panel of their own (checks of the resolution, the search with a simulator).
+// one.
 #pragma once
 
 #include <any>
@@ -21,7 +21,9 @@
 #include "core/scanning/scan_evaluation.h"
 #include "core/tasks/campaign_state.h"
 #include "core/tasks/task_graph.h"
+#include "core/tasks/task_options.h"
 #include "core/workflows/compensator_run.h"
+#include "core/workflows/discrepancy_workflow.h"
 
 namespace spindrift {
 
@@ -45,6 +47,7 @@ struct TaskInputs {
 ///   compensation      CompensationPlan
 ///   log-compensation  LogCompensation
 ///   verify            VerifyResult
+///   simulation        DiscrepancyRun
 struct TaskResult {
   nlohmann::json payload;
   std::any detail;  ///< a std::shared_ptr<const T>
@@ -79,6 +82,24 @@ enum class TaskOutput { Payload, Detail, Both };
 
 /// Work that is ready to be run, by any thread. Throws InputError and Cancelled.
 using TaskWork = std::function<TaskResult(JobContext&, TaskOutput)>;
+
+/// The search with the simulator of a campaign, and what comes of it in the simulation. Copies: any thread.
+struct SimulationTask {
+  std::filesystem::path simulator;  ///< simulator.json
+  EffectOptions effects;
+  std::filesystem::path effects_file;
+  std::shared_ptr<const Campaign> campaign;
+  std::shared_ptr<const ObservationSet> observations;
+
+  /// Throws InputError: there is no simulator.
+  [[nodiscard]] static SimulationTask of(const TaskGraph& graph, const TaskInputs& inputs);
+  /// Runs the programs that simulator.json names. Throws InputError, Cancelled.
+  [[nodiscard]] DiscrepancyRun search(JobContext& job) const;
+  /// Puts into the simulation what `before` has found, and writes its new version to `folder` where that is better;
+  /// null: it is searched first. Throws as `search`, and if the folder is not empty.
+  [[nodiscard]] DiscrepancyRun putInto(const std::filesystem::path& folder, const IntoSimulationOptions& options,
+                                       const DiscrepancyRun* before, JobContext& job) const;
+};
 
 /// The tasks whose work is here, each after those it is made from.
 [[nodiscard]] std::vector<std::string> tasksWithWork();

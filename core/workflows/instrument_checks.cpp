@@ -3,11 +3,13 @@
 
 #include <fmt/format.h>
 
+#include <limits>
+
+#include "core/base/error.h"
 #include "core/base/json_reader.h"
 #include "core/base/text.h"
 
 namespace spindrift {
-namespace {
 
 CheckResult checkResultOf(const ResolutionCheck& check) {
   CheckResult result;
@@ -32,8 +34,6 @@ CheckResult checkResultOf(const ResolutionCheck& check) {
       {"passed", check.passed}, {"reason", check.reason}, {"axes", axes}, {"status", toString(check.status)}};
   return result;
 }
-
-}  // namespace
 
 std::string warmUpNotChecked() {
   return "Not checked: a drift of the instrument would appear in every deviation as a motion of the machine.";
@@ -82,6 +82,32 @@ CheckResult checkJogs(const ObservationSet& observations, const MachineDescripti
 
 CheckResult checkRepeatability(const ObservationSet& observations, const MachineDescription& machine) {
   return checkResultOf(checkAgainstResolution(observations, machine, 0.5));
+}
+
+ResolutionCheck resolutionCheckFrom(const nlohmann::json& json) try {
+  ResolutionCheck check;
+  check.status = FitStatus::Converged;
+  check.passed = json.at("passed").get<bool>();
+  check.reason = json.at("reason").get<std::string>();
+  for (const nlohmann::json& axis : json.value("axes", nlohmann::json::array())) {
+    const auto number = [&](const char* key) {
+      return axis.at(key).is_number() ? axis.at(key).get<double>() : std::numeric_limits<double>::quiet_NaN();
+    };
+    AxisVerdict verdict;
+    verdict.component = componentFromString(axis.at("component").get<std::string>()).value_or(Component::EX);
+    verdict.count = axis.at("count").get<std::size_t>();
+    verdict.limit_um = number("limit_um");
+    verdict.largest_um = number("largest_um");
+    verdict.largest_sigma_um = number("largest_sigma_um");
+    verdict.largest_at = axis.at("largest_at").get<std::string>();
+    verdict.rms_um = number("rms_um");
+    verdict.standard_deviation_um = number("standard_deviation_um");
+    verdict.passed = axis.at("passed").get<bool>();
+    check.axes.push_back(verdict);
+  }
+  return check;
+} catch (const nlohmann::json::exception& e) {
+  throw InputError(fmt::format("the stored check cannot be read ({}); check again.", e.what()));
 }
 
 }  // namespace spindrift

@@ -26,5 +26,10 @@ struct CheckResult {
 [[nodiscard]] CheckResult checkJogs(const ObservationSet& observations, const MachineDescription& machine);
 /// Limit: half a resolution of the axis.
 [[nodiscard]] CheckResult checkRepeatability(const ObservationSet& observations, const MachineDescription& machine);
+/// As these two tell it.
+[[nodiscard]] CheckResult checkResultOf(const ResolutionCheck& check);
+/// What the JSON of these two tells; sessions of earlier versions kept no axes. Throws InputError: it is something
+/// else.
+[[nodiscard]] ResolutionCheck resolutionCheckFrom(const nlohmann::json& json);
 
 }  // namespace spindrift

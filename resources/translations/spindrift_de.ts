@@ -476,10 +476,6 @@
 <context>
     <name>Tasks</name>
     <message>
-        <source>Not begun: another campaign was chosen while what it needs was worked out.</source>
-        <translation>Nicht begonnen: Während der Vorarbeiten dafür wurde eine andere Kampagne gewählt.</translation>
-    </message>
-    <message>
         <source>Checking the captures</source>
         <translation>Aufnahmen werden geprüft</translation>
     </message>
@@ -538,6 +534,26 @@
     <message>
         <source>Writing the report</source>
         <translation>Der Bericht wird geschrieben</translation>
+    </message>
+    <message>
+        <source>%1: stopped, because another campaign was chosen. What was finished is stored.</source>
+        <translation>%1: angehalten, weil eine andere Kampagne gewählt wurde. Was fertig war, ist gespeichert.</translation>
+    </message>
+    <message>
+        <source>Searching with the simulator</source>
+        <translation>Suche mit dem Simulator</translation>
+    </message>
+    <message>
+        <source>Checking the jogs</source>
+        <translation>Verfahrschritte werden geprüft</translation>
+    </message>
+    <message>
+        <source>Checking the repeatability</source>
+        <translation>Wiederholgenauigkeit wird geprüft</translation>
+    </message>
+    <message>
+        <source>Running what is outdated</source>
+        <translation>Veraltetes wird ausgeführt</translation>
     </message>
 </context>
 <context>
@@ -5180,10 +5196,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>es gibt keine Validierungspunkte, und keiner kann ausgelassen werden: wie die Korrektur anderswo wirkt, ist nicht bekannt</translation>
     </message>
     <message>
-        <source>no point was measured in more than one state.</source>
-        <translation>kein Punkt wurde in mehr als einem Zustand gemessen.</translation>
-    </message>
-    <message>
         <source>no reason given</source>
         <translation>kein Grund angegeben</translation>
     </message>
@@ -5282,10 +5294,6 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>not passed</source>
         <translation>nicht bestanden</translation>
-    </message>
-    <message>
-        <source>not passed: {}.</source>
-        <translation>nicht bestanden: {}.</translation>
     </message>
     <message>
         <source>not run</source>
@@ -5454,10 +5462,6 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>pass {}: {}</source>
         <translation>Durchgang {}: {}</translation>
-    </message>
-    <message>
-        <source>passed: all differences stay within {} times the resolution of their axis.</source>
-        <translation>bestanden: alle Differenzen bleiben innerhalb des {}-Fachen der Auflösung ihrer Achse.</translation>
     </message>
     <message>
         <source>peak to peak against the interval</source>
@@ -6930,10 +6934,6 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>there is nothing to compensate with yet</source>
         <translation>es gibt noch nichts, womit kompensiert werden könnte</translation>
-    </message>
-    <message>
-        <source>there is only one state: nothing to compare.</source>
-        <translation>es gibt nur einen Zustand: nichts zu vergleichen.</translation>
     </message>
     <message>
         <source>thermal expansion of the %1 ball screw</source>
@@ -9524,6 +9524,38 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>What is named fits the log as if its clock were about {:.0f} min {} that of the observations, and is told with it: compare the clocks.</source>
         <translation>Was genannt ist, passt zum Protokoll, als ginge dessen Uhr etwa {:.0f} min {} der Uhr der Beobachtungen, und wird damit angegeben: Uhren vergleichen.</translation>
+    </message>
+    <message>
+        <source>No point was measured in more than one state.</source>
+        <translation>Kein Punkt wurde in mehr als einem Zustand gemessen.</translation>
+    </message>
+    <message>
+        <source>Not passed: {}.</source>
+        <translation>Nicht bestanden: {}.</translation>
+    </message>
+    <message>
+        <source>Passed: all differences stay within {} times the resolution of their axis.</source>
+        <translation>Bestanden: alle Differenzen bleiben innerhalb des {}-Fachen der Auflösung ihrer Achse.</translation>
+    </message>
+    <message>
+        <source>There is only one state: nothing to compare.</source>
+        <translation>Es gibt nur einen Zustand: nichts zu vergleichen.</translation>
+    </message>
+    <message>
+        <source>There is no simulator to search with: campaign.json names none and none was chosen (Discrepancy).</source>
+        <translation>Es gibt keinen Simulator, mit dem gesucht werden kann: campaign.json nennt keinen, und es wurde keiner gewählt (Diskrepanz).</translation>
+    </message>
+    <message>
+        <source>the simulator</source>
+        <translation>der Simulator</translation>
+    </message>
+    <message>
+        <source>the stored check cannot be read ({}); check again.</source>
+        <translation>die gespeicherte Prüfung ist nicht lesbar ({}); erneut prüfen.</translation>
+    </message>
+    <message>
+        <source>{} failed: {}</source>
+        <translation>{} ist fehlgeschlagen: {}</translation>
     </message>
 </context>
 <context>
@@ -16170,6 +16202,26 @@ endgültig fehlgeschlagen: {}</translation>
         <source>Redo: %1</source>
         <translation>Wiederholen: %1</translation>
     </message>
+    <message>
+        <source>Nothing that was calculated is outdated.</source>
+        <translation>Nichts von dem, was berechnet wurde, ist veraltet.</translation>
+    </message>
+    <message>
+        <source>What was outdated has been run: all results are current.</source>
+        <translation>Veraltetes wurde ausgeführt: Alle Ergebnisse sind aktuell.</translation>
+    </message>
+    <message>
+        <source>Still outdated: %1.</source>
+        <translation>Noch veraltet: %1.</translation>
+    </message>
+    <message>
+        <source>Run what is &amp;outdated</source>
+        <translation>&amp;Veraltetes ausführen</translation>
+    </message>
+    <message>
+        <source>Ctrl+Shift+R</source>
+        <translation>Ctrl+Shift+R</translation>
+    </message>
 </context>
 <context>
     <name>spindrift::gui::ManualWindow</name>
@@ -18400,6 +18452,10 @@ endgültig fehlgeschlagen: {}</translation>
         <source>not passed</source>
         <translation>nicht bestanden</translation>
     </message>
+    <message>
+        <source>Changed since this was checked: %1. Check again.</source>
+        <translation>Geändert, seit dies geprüft wurde: %1. Erneut prüfen.</translation>
+    </message>
 </context>
 <context>
     <name>spindrift::gui::ReviewPage</name>
@@ -19190,10 +19246,6 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>choose the simulator</source>
         <translation>Simulator wählen</translation>
-    </message>
-    <message>
-        <source>Searching with the simulator</source>
-        <translation>Suche mit dem Simulator</translation>
     </message>
     <message>
         <source>Nothing was found that could be put in. Tick a parameter in the column Put in to put it in all the same.</source>

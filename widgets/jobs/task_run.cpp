@@ -3,6 +3,7 @@
 
 #include <QCoreApplication>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "core/base/error.h"
@@ -13,36 +14,44 @@
 namespace spindrift::gui {
 namespace {
 
+/// Tasks of the campaign that was at hand when it began, one after the other.
 class RunningChain : public std::enable_shared_from_this<RunningChain> {
   Q_DECLARE_TR_FUNCTIONS(Tasks)
  public:
-  RunningChain(SessionModel& session, JobRunner& jobs, const std::string& task, TaskEnds ends)
+  /// Throws InputError: what is asked for cannot be run.
+  using Next = std::function<std::optional<std::string>(const TaskGraph&)>;
+
+  /// `wanted` is the task whose detail is shown, empty where there is none; without one, a failure ends nothing.
+  RunningChain(SessionModel& session, JobRunner& jobs, std::string wanted, QString title, Next next, TaskEnds ends)
       : session_(session),
         jobs_(jobs),
-        chain_(task, true),
-        ends_(std::move(ends)),
-        asked_(session.begin(task)),
-        title_(taskTitle(task, session.tasks().facts())) {}
+        campaign_{session.sessionNumber(), ResultOrigin{session.campaignId(), {}}},
+        wanted_(std::move(wanted)),
+        title_(std::move(title)),
+        next_(std::move(next)),
+        ends_(std::move(ends)) {}
 
   void next() {
+    QString title = title_;
     try {
       const TaskGraph graph = session_.tasks();
-      if (const std::string why = graph.whyNot(chain_.task()); !why.empty()) throw InputError(why);
-      const auto task = chain_.next(graph);
+      const auto task = next_(graph);
+      if (task) title = taskTitle(*task, graph.facts());
       if (!task) {
         if (ends_.done) ends_.done();
         return;
       }
       start(*task, prepareTask(*task, graph, ends_.inputs ? ends_.inputs() : session_.taskInputs()));
     } catch (const std::exception& e) {
-      if (ends_.failed) ends_.failed(coreSentence(e.what()));
+      if (wanted_.empty()) tell(title, e.what());
+      fail(coreSentence(e.what()));
     }
   }
 
  private:
   void start(const std::string& task, TaskWork work) {
     const PendingResult pending = session_.begin(task);
-    const bool last = task == chain_.task();
+    const bool last = task == wanted_;
     const auto self = shared_from_this();
     const ResultWork result = [self, last, work = std::move(work), origin = pending.origin,
                                inputs = session_.inputsKey()](JobContext& job) -> Worked {
@@ -54,44 +63,60 @@ class RunningChain : public std::enable_shared_from_this<RunningChain> {
               },
               {},
               [self, last] {
-                if (!last && !self->session_.atHand(self->asked_)) self->leave();
+                if (!last && !self->session_.atHand(self->campaign_))
+                  self->tell(self->title_,
+                             tr("%1: stopped, because another campaign was chosen. What was finished is stored.")
+                                 .arg(self->title_)
+                                 .toStdString());
               }};
     };
     jobs_.run(taskJob(session_, pending, taskTitle(task, session_.tasks().facts()), result,
                       {.done = [self] { self->next(); },
-                       .failed =
-                           [self](const QString& sentence) {
-                             if (self->ends_.failed) self->ends_.failed(sentence);
-                           },
+                       .failed = [self](const QString& sentence) { self->fail(sentence); },
                        .cancelled =
                            [self] {
                              if (self->ends_.cancelled) self->ends_.cancelled();
                            }}));
   }
 
-  /// Tells what is not begun any more.
-  void leave() {
+  void fail(const QString& sentence) {
+    if (ends_.failed) ends_.failed(sentence);
+    if (wanted_.empty()) next();
+  }
+
+  /// Why something was not begun, among the messages of jobs.
+  void tell(const QString& title, const std::string& sentence) {
     Job job;
-    job.title = title_;
-    job.work = [](JobContext&) -> std::function<void()> {
-      throw InputError(tr("Not begun: another campaign was chosen while what it needs was worked out.").toStdString());
-    };
+    job.title = title;
+    job.work = [sentence](JobContext&) -> std::function<void()> { throw InputError(sentence); };
     jobs_.run(std::move(job));
   }
 
   SessionModel& session_;
   JobRunner& jobs_;
-  TaskChain chain_;
-  TaskEnds ends_;
-  PendingResult asked_;
+  PendingResult campaign_;
+  std::string wanted_;
   QString title_;
+  Next next_;
+  TaskEnds ends_;
 };
 
 }  // namespace
 
 void runTask(SessionModel& session, JobRunner& jobs, const std::string& task, TaskEnds ends) {
   if (session.campaign() == nullptr) return;
-  std::make_shared<RunningChain>(session, jobs, task, std::move(ends))->next();
+  const auto next = [chain = TaskChain(task, true)](const TaskGraph& graph) mutable {
+    if (const std::string why = graph.whyNot(chain.task()); !why.empty()) throw InputError(why);
+    return chain.next(graph);
+  };
+  std::make_shared<RunningChain>(session, jobs, task, taskTitle(task, session.tasks().facts()), next, std::move(ends))
+      ->next();
+}
+
+void runOutdated(SessionModel& session, JobRunner& jobs, TaskEnds ends) {
+  if (session.campaign() == nullptr) return;
+  const auto next = [chain = OutdatedChain()](const TaskGraph& graph) mutable { return chain.next(graph); };
+  std::make_shared<RunningChain>(session, jobs, std::string(), outdatedTitle(), next, std::move(ends))->next();
 }
 
 std::function<std::function<const TaskGiven*()>(JobContext&)> detailOfTask(SessionModel& session,

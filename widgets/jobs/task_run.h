@@ -35,6 +35,10 @@ struct TaskEnds {
 /// The task itself is run even if its result holds: the user has asked for it.
 void runTask(SessionModel& session, JobRunner& jobs, const std::string& task, TaskEnds ends);
 
+/// Runs every task whose result does not hold any more, each after what it is made from (OutdatedChain). What fails is
+/// told and ends nothing: `done` is called when the rest is over. `take` is not called.
+void runOutdated(SessionModel& session, JobRunner& jobs, TaskEnds ends);
+
 /// The detail that is shown beside a stored result, worked out again: to be run as a job for display. The answer is
 /// null where the inputs or options have changed meanwhile. Throws InputError as prepareTask.
 [[nodiscard]] std::function<std::function<const TaskGiven*()>(JobContext&)> detailOfTask(SessionModel& session,

@@ -30,7 +30,14 @@ QString taskTitle(const std::string& task, const CampaignFacts& facts) {
   if (task == "discrepancy") return Tasks::tr("Searching for what the simulation lacks");
   if (task == "compensation") return Tasks::tr("Calculating the compensation");
   if (task == "verify") return Tasks::tr("Comparing before and after");
+  if (task == "simulation") return Tasks::tr("Searching with the simulator");
+  if (task == "check-jogs") return Tasks::tr("Checking the jogs");
+  if (task == "check-repeatability") return Tasks::tr("Checking the repeatability");
   return Tasks::tr("Writing the report");
+}
+
+QString outdatedTitle() {
+  return Tasks::tr("Running what is outdated");
 }
 
 }  // namespace spindrift::gui

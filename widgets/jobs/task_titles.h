@@ -11,5 +11,7 @@ namespace spindrift::gui {
 
 /// "Evaluating the touches".
 [[nodiscard]] QString taskTitle(const std::string& task, const CampaignFacts& facts);
+/// Of all that is outdated.
+[[nodiscard]] QString outdatedTitle();
 
 }  // namespace spindrift::gui

@@ -31,6 +31,7 @@
 #include <algorithm>
 
 #include "core/base/error.h"
+#include "core/tasks/task_chain.h"
 #include "core/tasks/task_options.h"
 #include "core/workflows/log_campaign.h"
 #include "widgets/common/core_sentence.h"
@@ -40,6 +41,7 @@
 #include "widgets/export/exportable.h"
 #include "widgets/jobs/activity_dialog.h"
 #include "widgets/jobs/job_bar.h"
+#include "widgets/jobs/task_run.h"
 #include "widgets/pages/compensate/closed_loop_page.h"
 #include "widgets/pages/plant/plant_page.h"
 #include "widgets/services/connections_service.h"
@@ -142,6 +144,8 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent), workflow_(session
     showStep();
   });
   connect(&session_, &SessionModel::inputsChanged, this, &MainWindow::refreshPage);
+  // Whoever asked for it: a page shows what is stored.
+  connect(&session_, &SessionModel::resultChanged, this, &MainWindow::refreshPage);
   connect(campaign_, &QComboBox::activated, this, [this](int) {
     const auto id = campaign_->currentData().toLongLong();
     if (id == session_.campaignId()) return;
@@ -313,6 +317,29 @@ void MainWindow::goOnRunning() {
              ? tr("All steps are done and the report is written.")
              : tr("Step %1 needs your review before you continue.").arg(stepTitle(step)));
   }
+}
+
+QString MainWindow::nothingOutdated() {
+  if (session_.campaign() == nullptr) return tr("Open a session first.");
+  return OutdatedChain().next(session_.tasks()) ? QString() : tr("Nothing that was calculated is outdated.");
+}
+
+void MainWindow::runOutdated() {
+  if (const QString why = nothingOutdated(); !why.isEmpty()) {
+    tell(why);
+    return;
+  }
+  spindrift::gui::runOutdated(session_, jobs_, {.done = [this] {
+                                QStringList steps;
+                                for (const StepId step : all_steps) {
+                                  const std::string task = taskOfStep(session_.tasks(), step);
+                                  if (task.empty()) continue;
+                                  const TaskStatus status = session_.tasks().status(task);
+                                  if (status.result != 0 && !status.current) steps << stepTitle(step);
+                                }
+                                tell(steps.isEmpty() ? tr("What was outdated has been run: all results are current.")
+                                                     : tr("Still outdated: %1.").arg(steps.join(QStringLiteral(", "))));
+                              }});
 }
 
 QPushButton* MainWindow::dueButton() {

@@ -86,7 +86,9 @@ class MainWindow : public QMainWindow {
   void startMeasurement(const nlohmann::json& machine);
   NotesDialog* openNotes();  ///< null if nothing is open
   void openEffects();        ///< the list of effects of the step Discrepancy
-  void openPlant();          ///< many machines; works without a session
+  /// Runs every result of the campaign that does not hold any more, and says what stays outdated.
+  void runOutdated();
+  void openPlant();  ///< many machines; works without a session
   [[nodiscard]] PlantPage* plant() const { return plant_; }
   void openLiveCompensation();  ///< the closed loop at the control; works without a session
   [[nodiscard]] ClosedLoopPage* liveCompensation() const { return live_compensation_; }
@@ -141,6 +143,8 @@ class MainWindow : public QMainWindow {
   /// Presses what is to be pressed next, until the report is written or a step needs its user.
   void runAllSteps();
   void goOnRunning();
+  /// Why there is nothing outdated that could be run; empty: there is.
+  [[nodiscard]] QString nothingOutdated();
   void arrive();
   void arriveSoon();
   void refreshTitle();

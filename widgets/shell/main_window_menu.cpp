@@ -141,8 +141,14 @@ void MainWindow::buildMenu() {
          return button->toolTip().isEmpty() ? tr("Something that it needs is missing on the page.") : button->toolTip();
        });
 
-  need(add(go, tr("Run &all steps"), "play", QKeySequence(tr("Ctrl+Shift+Return")), [this] { runAllSteps(); }),
-       no_session);
+  QAction* all_steps_action =
+      add(go, tr("Run &all steps"), "play", QKeySequence(tr("Ctrl+Shift+Return")), [this] { runAllSteps(); });
+  need(all_steps_action, no_session);
+  QAction* outdated_action =
+      add(go, tr("Run what is &outdated"), "outdated", QKeySequence(tr("Ctrl+Shift+R")), [this] { runOutdated(); });
+  need(outdated_action, [this] { return nothingOutdated(); });
+  steps_->addActions({all_steps_action, outdated_action});
+  steps_->setContextMenuPolicy(Qt::ActionsContextMenu);
 
   QMenu* view = menuBar()->addMenu(tr("&View"));
   add(view, tr("&Light or dark"), "moon", QKeySequence(tr("Ctrl+D")),

@@ -7,7 +7,9 @@
 #include <QPlainTextEdit>
 #include <QPushButton>
 #include <QTableView>
+#include <QTextCursor>
 #include <QVBoxLayout>
+#include <nlohmann/json.hpp>
 
 #include "widgets/commands/campaign_undo.h"
 #include "widgets/commands/commands.h"
@@ -19,6 +21,8 @@
 namespace spindrift::gui {
 
 namespace {
+
+constexpr auto draft_name = "note";
 
 /// What a note is about stands in the session in English, as in the report; steps are shown as the window calls them.
 QString shownAbout(const std::string& about) {
@@ -37,7 +41,7 @@ std::string writtenAbout(const QString& about) {
 
 NotesDialog::NotesDialog(SessionModel& session, CampaignUndo& undo, const QString& about, const QString& item,
                          QWidget* parent)
-    : QDialog(parent), session_(session), undo_(undo) {
+    : QDialog(parent), session_(session), undo_(undo), draft_key_(session.draftKey(draft_name)) {
   setWindowTitle(tr("Notes"));
   resize(720, 520);
   auto* column = new QVBoxLayout(this);
@@ -86,9 +90,33 @@ NotesDialog::NotesDialog(SessionModel& session, CampaignUndo& undo, const QStrin
   connect(remove_, &QPushButton::clicked, this, &NotesDialog::removeSelected);
   connect(close, &QPushButton::clicked, this, &QDialog::accept);
   connect(&session_, &SessionModel::sessionChanged, this, &QDialog::reject);
+  connect(&session_, &SessionModel::campaignChanged, this, &QDialog::reject);
   connect(&session_, &SessionModel::inputsChanged, this, &NotesDialog::refresh);
+  showTyped();
+  connect(text_, &QPlainTextEdit::textChanged, this, &NotesDialog::keepTyped);
+  connect(about_, &QComboBox::currentTextChanged, this, &NotesDialog::keepTyped);
+  connect(item_, &QComboBox::currentTextChanged, this, &NotesDialog::keepTyped);
   refresh();
   text_->setFocus();
+}
+
+void NotesDialog::keepTyped() {
+  const std::string text = text_->toPlainText().toStdString();
+  const nlohmann::json typed = {{"text", text},
+                                {"about", writtenAbout(about_->currentText().trimmed())},
+                                {"item", item_->currentText().toStdString()}};
+  session_.setSetting(draft_key_,
+                      text.empty() ? nlohmann::json() : nlohmann::json{{"base", nullptr}, {"typed", typed}});
+}
+
+void NotesDialog::showTyped() {
+  const nlohmann::json draft = session_.draft(draft_name);
+  if (!draft.is_object()) return;
+  const nlohmann::json& typed = draft.at("typed");
+  about_->setCurrentText(shownAbout(typed.value("about", std::string())));
+  item_->setCurrentText(QString::fromStdString(typed.value("item", std::string())));
+  text_->setPlainText(QString::fromStdString(typed.value("text", std::string())));
+  text_->moveCursor(QTextCursor::End);
 }
 
 void NotesDialog::updateButtons() {

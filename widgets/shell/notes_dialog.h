@@ -3,6 +3,7 @@
 #pragma once
 
 #include <QDialog>
+#include <string>
 
 class QComboBox;
 class QPlainTextEdit;
@@ -33,11 +34,15 @@ class NotesDialog : public QDialog {
  private:
   void refresh();
   void updateButtons();
+  /// What is typed and not added yet is on the disk with every letter (SessionModel::draft); the dialog begins with it.
+  void keepTyped();
+  void showTyped();
   void add();
   void removeSelected();
 
   SessionModel& session_;
   CampaignUndo& undo_;
+  std::string draft_key_;  ///< of the campaign that the notes are about
   RowsModel* rows_;
   QTableView* table_;
   QComboBox* about_;

@@ -2,6 +2,7 @@
 // `session`: what the desktop program shows as its steps, on the command line.
 #include <gmock/gmock.h>
 
+#include "core/base/atomic_file.h"
 #include "core/base/job_context.h"
 #include "core/session/session.h"
 #include "tests/app/cli/child_process.h"
@@ -57,6 +58,10 @@ TEST(SessionCommand, EvaluateAndReportShareTheTasksOfTheWindow) {
             0);
   {
     JobContext job;
+    const std::string file = campaign + "/machine.json";
+    nlohmann::json machine = nlohmann::json::parse(textOf(file));
+    for (nlohmann::json& axis : machine.at("axes")) axis["resolution_um"] = 1.0;
+    writeFileAtomically(file, machine.dump());
     Session session = Session::create(place);
     const auto id = session.importCampaign(campaign, job);
     session.exclude(id, "M0/none/EX", "to be told in the report");
@@ -91,6 +96,24 @@ TEST(SessionCommand, EvaluateAndReportShareTheTasksOfTheWindow) {
   EXPECT_TRUE(stepOf(jsonOf({"session", place}), "Model").at("changed").empty());
   expectBadInput({"session", place, "--run", "discrepancy"}, {"without a simulation"});
   expectBadInput({"session", place, "--run", "lunch"}, {"--run"});
+  // Everything that is outdated, as one.
+  EXPECT_EQ(jsonOf({"session", place, "--run", "outdated"}).at("ran"), nlohmann::json::array());
+  {
+    Session session = Session::open(place);
+    session.exclude(session.campaigns().front().id, "M2/none/EX", "one more");
+  }
+  EXPECT_EQ(jsonOf({"session", place, "--run", "outdated"}).at("ran"), nlohmann::json({"evaluate", "fit", "report"}));
+  EXPECT_EQ(stepOf(jsonOf({"session", place}), "Report").at("state"), "done");
+  // Checks of the instrument are kept like everything else.
+  const Outcome jogs = runCli({"validate-jogs", place});
+  EXPECT_LE(jogs.status, 1) << jogs.error;
+  EXPECT_THAT(jogs.output, ::testing::Not(HasSubstr("still current")));
+  EXPECT_THAT(runCli({"validate-jogs", place}).output, HasSubstr("still current"));
+  {
+    Session session = Session::open(place);
+    EXPECT_TRUE(session.latestResult(session.campaigns().front().id, "check-jogs"));
+  }
+  expectBadInput({"repeatability", place, "--observations", out}, {"is a session"});
   expectBadInput({"evaluate", place, "--exclude", "a"}, {"is a session"});
   expectBadInput({"report", place, "--campaign", "none", "--out", html}, {"no campaign \"none\""});
   expectBadInput({"report", place, "--out", (folder / "r.txt").string()}, {".html or .pdf"});

@@ -14,6 +14,7 @@
 #include "core/simulation/scenario.h"
 #include "core/simulation/virtual_campaign.h"
 #include "core/tasks/task_options.h"
+#include "core/workflows/instrument_checks.h"
 #include "tests/support/temp_folder.h"
 
 namespace spindrift {
@@ -152,6 +153,50 @@ TEST_F(TaskChainTest, CancelledAsOne) {
   EXPECT_THAT(run("fit"), ElementsAre("fit"));
 }
 
+TEST_F(TaskChainTest, WhatIsOutdatedIsRunAndNothingThatNeverWas) {
+  JobContext job;
+  std::vector<std::string> failures;
+  EXPECT_THAT(tasks_->runOutdated(job, failures), IsEmpty()) << "nothing has been run";
+  run("fit");
+  run("report");
+  EXPECT_THAT(tasks_->runOutdated(job, failures), IsEmpty());
+  exclude(3);
+  EXPECT_THAT(tasks_->runOutdated(job, failures), ElementsAre("evaluate", "fit", "report"));
+  EXPECT_THAT(tasks_->runOutdated(job, failures), IsEmpty());
+  EXPECT_THAT(kindsStored(), ElementsAre("evaluate", "fit", "report", "evaluate", "fit", "report"));
+  for (const char* task : {"evaluate", "fit", "report"}) EXPECT_TRUE(status(task).current) << task;
+  session_->setSetting(campaignKey(option_keys::cycles, id_), {{"second_axis", true}});
+  EXPECT_THAT(tasks_->runOutdated(job, failures), ElementsAre("fit")) << "the report tells of no option of the cycles";
+  EXPECT_THAT(failures, IsEmpty());
+}
+
+TEST_F(TaskChainTest, WhatFailsLeavesOutdatedWhatIsMadeFromItAndEndsNothingElse) {
+  JobContext job;
+  std::vector<std::string> failures;
+  run("check");
+  run("fit");
+  exclude(3);
+  const std::filesystem::path list = std::filesystem::path(session_->campaign(id_).folder) / "captures/touches.csv";
+  const std::string whole = readFile(list);
+  bool broken = false;
+  AtStart breaks("evaluate", [&] {
+    writeFileAtomically(list, "time_s,cycle\n0,C1\n");
+    broken = true;
+  });
+  JobContext breaking({}, &breaks);
+  EXPECT_THAT(tasks_->runOutdated(breaking, failures), ElementsAre("check"));
+  EXPECT_TRUE(broken);
+  ASSERT_EQ(failures.size(), 1U) << "the fit is not tried";
+  EXPECT_THAT(failures.front(), HasSubstr("evaluate failed"));
+  EXPECT_THAT(failures.front(), HasSubstr("touches.csv"));
+  EXPECT_EQ(status("evaluate").state, TaskState::Failed);
+  EXPECT_EQ(status("fit").state, TaskState::Outdated);
+  writeFileAtomically(list, whole);
+  failures.clear();
+  EXPECT_THAT(tasks_->runOutdated(job, failures), ElementsAre("evaluate", "fit")) << "asked for again";
+  EXPECT_THAT(failures, IsEmpty());
+}
+
 TEST_F(TaskChainTest, WhatIsBlockedIsSaid) {
   EXPECT_THAT(tasks_->graph().whyNot("discrepancy"), HasSubstr("without a simulation"));
   EXPECT_EQ(tasks_->graph().whyNot("fit"), "");
@@ -188,6 +233,57 @@ TEST(TaskChain, OfObservationsRunsSearchModelCompensationAndReport) {
   EXPECT_THAT(tasks.run("report", job), ElementsAre("report"));
   for (const char* task : {"fit", "thermal", "discrepancy", "compensation", "report"})
     EXPECT_TRUE(tasks.graph().status(task).current) << task;
+}
+
+/// Two states of one fiducial on a machine that knows its resolution; Y is off by more than that.
+TEST(TaskChain, ChecksOfTheInstrumentAreTasks) {
+  const TempFolder folder;
+  folder.write("c/campaign.json",
+               R"({"format":"spindrift-campaign","version":1,"name":"c","start_utc":"2026-01-31T08:00:00Z"})");
+  folder.write("c/machine.json", R"({"format":"spindrift-machine","version":1,"name":"mill","chain":"V [w-X'-Y'-b-Z-t]",
+    "axes":[{"name":"X","travel_mm":[0,300],"resolution_um":1},{"name":"Y","travel_mm":[0,300],"resolution_um":1},
+            {"name":"Z","travel_mm":[0,300],"resolution_um":1}]})");
+  ObservationSet set;
+  for (int state = 0; state < 2; ++state) {
+    for (const Component c : {Component::EX, Component::EY, Component::EZ}) {
+      Observation o;
+      o.time_s = 60.0 * state;
+      o.state = state == 0 ? "M0" : "M1";
+      o.point = "F1";
+      o.component = c;
+      o.value = state == 0 ? 0.0 : c == Component::EY ? 3.0 : 0.7;
+      o.sigma = 0.1;
+      o.instrument = "microscope";
+      set.rows.push_back(o);
+    }
+  }
+  set.write(folder / "c/observations.csv");
+  Session session = Session::create(folder / "s");
+  JobContext job;
+  const std::int64_t id = session.importCampaign(folder / "c", job);
+  CampaignTasks tasks(session, CampaignState::read(session, id));
+  EXPECT_EQ(tasks.graph().status("check-jogs").state, TaskState::NotRun);
+  EXPECT_THAT(tasks.run("check-jogs", job), ElementsAre("check-jogs"));
+  EXPECT_THAT(tasks.run("check-jogs", job), IsEmpty());
+  EXPECT_THAT(tasks.run("check-repeatability", job), ElementsAre("check-repeatability"));
+  const auto jogs = session.latestResult(id, "check-jogs"), cold = session.latestResult(id, "check-repeatability");
+  EXPECT_EQ(jogs->provenance.options, nlohmann::json({{"part", 1.0}}));
+  EXPECT_EQ(cold->provenance.options, nlohmann::json({{"part", 0.5}}));
+  const ResolutionCheck stored = resolutionCheckFrom(jogs->payload);
+  EXPECT_FALSE(stored.passed);
+  ASSERT_EQ(stored.axes.size(), 3U);
+  EXPECT_TRUE(stored.axes[0].passed) << "0.7 of 1 µm";
+  EXPECT_FALSE(stored.axes[1].passed);
+  EXPECT_DOUBLE_EQ(stored.axes[1].largest_um, 3.0);
+  EXPECT_EQ(stored.axes[1].largest_at, "F1 in state M1");
+  EXPECT_FALSE(resolutionCheckFrom(cold->payload).axes[0].passed) << "0.7 of 0.5 µm";
+  // An exclusion makes both outdated; they are run together.
+  session.exclude(id, "M1/F1/EY", "read wrongly");
+  EXPECT_THAT(tasks.graph().status("check-jogs").changed, ElementsAre("1 exclusion more"));
+  std::vector<std::string> failures;
+  EXPECT_THAT(tasks.runOutdated(job, failures), ElementsAre("check-jogs", "check-repeatability"));
+  EXPECT_TRUE(session.latestResult(id, "check-jogs")->payload.at("passed").get<bool>());
+  EXPECT_THROW((void)resolutionCheckFrom({{"passed", true}}), InputError);
 }
 
 }  // namespace

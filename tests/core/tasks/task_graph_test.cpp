@@ -82,6 +82,42 @@ TEST(TaskGraph, AFitOfAnOldEvaluationStaysOutdatedWhenTheCapturesAreEvaluatedAga
   EXPECT_TRUE(s.status("fit").current);
 }
 
+TEST(TaskGraph, ASearchWithASimulatorHoldsForThatSimulatorAndForTheVersionItWrote) {
+  TaskSession s;
+  s.run("evaluate");
+  EXPECT_EQ(s.status("simulation").state, TaskState::Blocked);
+  EXPECT_THAT(s.status("simulation").reason, HasSubstr("no simulator"));
+  EXPECT_THAT(s.graph().tasks(), ::testing::Not(::testing::Contains("simulation")));
+  s.folder_.write("s/sim/simulator.json", "one");
+  s.option(option_keys::simulator, "sim/simulator.json");
+  EXPECT_EQ(s.status("simulation").state, TaskState::NotRun);
+  EXPECT_THAT(s.graph().tasks(), ::testing::Contains("simulation"));
+  s.run("simulation");
+  EXPECT_TRUE(s.status("simulation").current);
+  s.option(option_keys::discrepancy, {{"added", {"spindle.growth.z"}}});
+  EXPECT_TRUE(s.status("simulation").current) << "terms on top of the simulation are not searched among";
+  s.option(option_keys::discrepancy, {{"rejected", {"spindle.growth.z"}}});
+  EXPECT_THAT(s.status("simulation").changed, ElementsAre("the options"));
+  s.option(option_keys::discrepancy, nullptr);
+  s.folder_.write("s/sim/simulator.json", "another");
+  EXPECT_THAT(s.status("simulation").changed, ElementsAre("the simulator"));
+  s.folder_.write("s/sim/simulator.json", "one");
+  EXPECT_TRUE(s.status("simulation").current);
+  // It writes a new version, which is taken from then on.
+  ResultOrigin origin = s.graph().origin("simulation");
+  s.folder_.write("s/v2/simulator.json", "two");
+  origin.options["version"] = "v2/simulator.json";
+  origin.options["written"] = simulatorFingerprint(s.folder_ / "s/v2/simulator.json");
+  s.session_.keepResult(origin, nlohmann::json::object());
+  EXPECT_TRUE(s.status("simulation").current) << "of the one it was made from";
+  s.option(option_keys::simulator, "v2/simulator.json");
+  EXPECT_TRUE(s.status("simulation").current) << "of the one it wrote";
+  s.folder_.write("s/v2/simulator.json", "edited");
+  EXPECT_THAT(s.status("simulation").changed, ElementsAre("the simulator"));
+  s.option(option_keys::simulator, "elsewhere/simulator.json");
+  EXPECT_THAT(s.status("simulation").changed, ElementsAre("the simulator"));
+}
+
 TEST(TaskGraph, WhatChangesWhileTheWorkGoesOnMakesTheResultOutdated) {
   TaskSession s;
   const ResultOrigin started = s.graph().origin("evaluate");

@@ -1,11 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Two campaigns in one session: what was worked out, changed or taken back for one never ends up in the other.
+#include <gmock/gmock.h>
+
+#include <QAction>
 #include <QPushButton>
 #include <QTest>
+#include <algorithm>
 
+#include "core/machine/observation.h"
 #include "tests/widgets/support/story_support.h"
 #include "widgets/commands/commands.h"
+#include "widgets/jobs/job_bar.h"
+#include "widgets/pages/discrepancy/discrepancy_page.h"
 #include "widgets/pages/page.h"
+#include "widgets/shell/command_palette.h"
+#include "widgets/shell/step_list.h"
 #include "widgets/shell/tour.h"
 
 namespace spindrift::gui {
@@ -34,6 +43,40 @@ class CampaignsTest : public StoryTest {
     QTest::qWait(1);
   }
   SessionModel& session() { return window_->session(); }
+  void run(StepId step) {
+    window_->workflow().goTo(step);
+    wait();
+    window_->currentPage()->runAll();
+    wait();
+  }
+  [[nodiscard]] std::vector<std::string> kinds(std::int64_t campaign) {
+    std::vector<std::string> all;
+    for (const StoredResult& r : session().session()->results(campaign)) all.push_back(r.kind);
+    return all;
+  }
+  [[nodiscard]] QStringList running() {
+    QStringList titles;
+    for (const JobEntry& job : window_->jobs().entries()) titles << job.title;
+    return titles;
+  }
+  [[nodiscard]] bool said(const QString& text) {
+    const auto& messages = window_->jobBar()->log().messages();
+    return std::any_of(messages.begin(), messages.end(), [&](const Message& m) { return m.text.contains(text); });
+  }
+  /// A command as the list of commands has it.
+  [[nodiscard]] Command command(const char* title) {
+    for (Command& c : window_->commands())
+      if (c.title == QLatin1String(title)) return c;
+    ADD_FAILURE() << "no command " << title;
+    return {};
+  }
+  [[nodiscard]] QString whyNot(const char* title) { return command(title).why_not; }
+  void trigger(const char* title) { command(title).run(); }
+  [[nodiscard]] QAction* action(const char* title) {
+    for (QAction* a : window_->findChildren<QAction*>())
+      if (a->text().remove(QLatin1Char('&')) == QLatin1String(title)) return a;
+    return nullptr;
+  }
 
   std::int64_t first_ = 0;
   std::int64_t second_ = 0;
@@ -109,6 +152,115 @@ TEST_F(CampaignsTest, ChoosingAnotherCampaignInTheMiddleOfAJobLosesAndMixesNothi
       EXPECT_TRUE(session().session()->isCurrent(r)) << r.kind;
   }
   EXPECT_GE(started, 3);
+}
+
+TEST_F(CampaignsTest, WhatIsNeededFirstIsFiledAndTheRestIsNotBegunWhenAnotherCampaignIsChosen) {
+  openTwo();
+  window_->workflow().goTo(StepId::Compensate);
+  wait();
+  window_->currentPage()->runAll();
+  ASSERT_TRUE(window_->jobs().busy());
+  EXPECT_EQ(running(), (QStringList{QStringLiteral("Fitting the nine-parameter model")})) << "needed first";
+  select(second_);
+  wait();
+  EXPECT_EQ(kinds(first_), (std::vector<std::string>{"fit"})) << "filed where it belongs; nothing was run after it";
+  EXPECT_THAT(kinds(second_), ::testing::IsEmpty());
+  EXPECT_TRUE(said(QStringLiteral("Calculating the compensation: stopped, because another campaign was chosen")));
+  // And without another campaign it is run.
+  select(first_);
+  window_->currentPage()->runAll();
+  wait();
+  EXPECT_EQ(kinds(first_), (std::vector<std::string>{"fit", "compensation"}));
+}
+
+TEST_F(CampaignsTest, WhatIsOutdatedIsRunAsOne) {
+  openTwo();
+  EXPECT_FALSE(whyNot("Run what is outdated").isEmpty()) << "nothing was run yet";
+  run(StepId::Model);
+  run(StepId::Discrepancy);
+  run(StepId::Compensate);
+  run(StepId::Report);
+  const std::vector<std::string> once{"fit", "discrepancy", "compensation", "report"};
+  ASSERT_EQ(kinds(first_), once);
+  EXPECT_FALSE(whyNot("Run what is outdated").isEmpty()) << "all of it holds";
+  trigger("Run what is outdated");
+  wait();
+  EXPECT_TRUE(said(QStringLiteral("Nothing that was calculated is outdated"))) << "a command is never silent";
+  EXPECT_EQ(kinds(first_), once);
+
+  window_->undoStack().push(new ExcludeCommand(session(), {reading}, QStringLiteral("disturbed")));
+  for (const std::string& task : once) EXPECT_FALSE(session().state(task).current) << task;
+  EXPECT_TRUE(whyNot("Run what is outdated").isEmpty());
+  window_->workflow().goTo(StepId::Discrepancy);
+  wait();
+  trigger("Run what is outdated");
+  EXPECT_TRUE(window_->jobs().busy());
+  wait();
+  std::vector<std::string> twice = once;
+  twice.insert(twice.end(), once.begin(), once.end());
+  EXPECT_EQ(kinds(first_), twice) << "each once, in the order in which they are made from each other";
+  for (const StoredResult& r : session().session()->results(first_)) {
+    const bool newest = r.id == session().session()->latestResult(first_, r.kind)->id;
+    EXPECT_EQ(r.provenance.inputs.at("exclusions").size(), newest ? 1U : 0U) << r.kind;
+  }
+  for (const std::string& task : once) EXPECT_TRUE(session().state(task).current) << task;
+  auto* shown = page<DiscrepancyPage>();
+  ASSERT_NE(shown, nullptr);
+  ASSERT_NE(shown->story(), nullptr);
+  EXPECT_EQ(shown->story()->json(), session().latest("discrepancy")->payload) << "the page at hand shows what was run";
+  EXPECT_TRUE(said(QStringLiteral("all results are current")));
+  EXPECT_THAT(kinds(second_), ::testing::IsEmpty());
+  for (const StepId step : {StepId::Model, StepId::Compensate, StepId::Report})
+    EXPECT_NE(window_->workflow().status(step).state, StepState::Outdated) << stepTitle(step).toStdString();
+  // It stands beside the steps as well.
+  EXPECT_EQ(window_->stepList()->contextMenuPolicy(), Qt::ActionsContextMenu);
+  EXPECT_TRUE(window_->stepList()->actions().contains(action("Run what is outdated")));
+  EXPECT_TRUE(window_->stepList()->actions().contains(action("Run all steps")));
+}
+
+TEST_F(CampaignsTest, RunningWhatIsOutdatedStopsWhenItIsCancelledOrAnotherCampaignIsChosen) {
+  openTwo();
+  run(StepId::Model);
+  run(StepId::Compensate);
+  window_->undoStack().push(new ExcludeCommand(session(), {reading}, QStringLiteral("disturbed")));
+  const std::vector<std::string> before = kinds(first_);
+  trigger("Run what is outdated");
+  window_->jobs().cancel();
+  wait();
+  EXPECT_EQ(kinds(first_), before);
+  EXPECT_FALSE(session().state("fit").current);
+  EXPECT_EQ(window_->workflow().status(StepId::Model).state, StepState::Outdated) << "not running, not failed";
+  trigger("Run what is outdated");
+  select(second_);
+  wait();
+  EXPECT_THAT(kinds(second_), ::testing::IsEmpty());
+  EXPECT_EQ(kinds(first_).size(), before.size() + 1) << "the one that ran is filed";
+  EXPECT_TRUE(said(QStringLiteral("Running what is outdated: stopped, because another campaign was chosen")));
+  select(first_);
+  wait();
+  EXPECT_TRUE(session().state("fit").current);
+  EXPECT_FALSE(session().state("compensation").current);
+  trigger("Run what is outdated");
+  wait();
+  EXPECT_TRUE(session().state("compensation").current);
+}
+
+TEST_F(CampaignsTest, AFileThatWasChangedWhileTheSessionWasClosedIsSaidAndItsResultsAreOutdated) {
+  open(writeStoryCampaign(folder_, Hidden::SpindleGrowth), StepId::Model);
+  run(StepId::Model);
+  ASSERT_TRUE(session().state("fit").current);
+  const QString folder = QString::fromStdString(session().folder().string());
+  const std::filesystem::path file = session().campaign()->folder / "observations.csv";
+  window_->closeSession();
+  ObservationSet set = ObservationSet::read(file);
+  set.rows.front().value += 5.0;
+  set.write(file);
+  window_->open(folder);
+  wait();
+  EXPECT_TRUE(said(QStringLiteral("observations.csv")));
+  EXPECT_FALSE(session().state("fit").current);
+  EXPECT_EQ(session().state("fit").changed, QStringLiteral("files of the campaign"));
+  EXPECT_EQ(window_->workflow().status(StepId::Model).state, StepState::Outdated);
 }
 
 TEST_F(CampaignsTest, UndoBelongsToTheCampaignItWasDoneOn) {

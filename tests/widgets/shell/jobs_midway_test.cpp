@@ -14,6 +14,7 @@
 #include <QFile>
 #include <QLabel>
 #include <QLineEdit>
+#include <QPushButton>
 #include <QRegularExpression>
 #include <QTableView>
 #include <QTest>
@@ -39,6 +40,7 @@
 #include "widgets/pages/verify/verify_page.h"
 #include "widgets/panels/discrepancy/simulation_panel.h"
 #include "widgets/panels/thermal/clock_panel.h"
+#include "widgets/panels/thermal/resolution_check_panel.h"
 #include "widgets/panels/thermal/update_panel.h"
 #include "widgets/plots/plot.h"
 #include "widgets/shell/tour.h"
@@ -48,13 +50,15 @@ namespace {
 
 /// What a job needs to be started, beyond its page.
 enum class Start {
-  RunAll,      ///< the page's own action
-  Show,        ///< the campaign is chosen again: what the page shows beside stored results is worked out
-  Suggest,     ///< measuring points
-  Programme,   ///< of the measuring cycle
-  Clock,       ///< its offset from a motion
-  Updates,     ///< of the model over time
-  Simulator,   ///< the search with it
+  RunAll,     ///< the page's own action
+  Show,       ///< the campaign is chosen again: what the page shows beside stored results is worked out
+  Suggest,    ///< measuring points
+  Programme,  ///< of the measuring cycle
+  Clock,      ///< its offset from a motion
+  Updates,    ///< of the model over time
+  Simulator,  ///< the search with it
+  Jogs,
+  Repeatability,
   SaveReport,  ///< a copy of the report
 };
 
@@ -79,6 +83,8 @@ const std::vector<Case>& cases() {
       {"fiducials", StepId::Calibrate, "Evaluating the captures", "evaluate"},
       {"fiducials", StepId::Model, "Fitting the nine-parameter model", "fit", Start::RunAll,
        option_keys::nine_parameters},
+      {"fiducials", StepId::WarmUp, "Checking the jogs", "check-jogs", Start::Jogs},
+      {"fiducials", StepId::WarmUp, "Checking the repeatability", "check-repeatability", Start::Repeatability},
       {"fiducials", StepId::Compensate, "Calculating the compensation", "compensation", Start::RunAll,
        option_keys::compensation},
       {"fiducials", StepId::Compensate, "Reading the compensation", "", Start::Show},
@@ -210,6 +216,12 @@ class JobsMidway : public StoryTest, public ::testing::WithParamInterface<Case> 
       case Start::Simulator:
         ASSERT_TRUE(QTest::qWaitFor([this] { return page<DiscrepancyPage>()->simulation() != nullptr; }, 10'000));
         page<DiscrepancyPage>()->simulation()->search();
+        break;
+      case Start::Jogs:
+        page<WarmUpPage>()->jogs()->button()->click();
+        break;
+      case Start::Repeatability:
+        page<WarmUpPage>()->repeatability()->button()->click();
         break;
       case Start::SaveReport:
         page<ReportPage>()->saveTo(QString::fromStdString((folder_ / "copy.html").string()));
@@ -427,7 +439,7 @@ INSTANTIATE_TEST_SUITE_P(Jobs, JobsMidway, ::testing::ValuesIn(cases()), [](cons
 
 TEST(JobsMidwayCases, EveryJobOfAPageIsAmongThem) {
   // What belongs to no campaign (plant, exercises), one picture or cloud that was picked, and what has tests of its own
-  // (scanning_pages_test, simulation_panel_test, compensate_page_test, review_page_test).
+  // (scanning_pages_test, simulation_panel_test, compensate_page_test, review_page_test, campaigns_test).
   const std::set<QString> elsewhere{QStringLiteral("Decoding %1"),
                                     QStringLiteral("Reading %1"),
                                     QStringLiteral("Comparing scans"),
@@ -436,7 +448,8 @@ TEST(JobsMidwayCases, EveryJobOfAPageIsAmongThem) {
                                     QStringLiteral("Putting it into the simulation"),
                                     QStringLiteral("Reading the model"),
                                     QStringLiteral("Reading the six errors"),
-                                    QStringLiteral("Reading the log that is being recorded")};
+                                    QStringLiteral("Reading the log that is being recorded"),
+                                    QStringLiteral("Running what is outdated")};
   std::set<QString> tested;
   for (const Case& c : cases()) tested.insert(QString::fromLatin1(c.title));
   const QRegularExpression job(QStringLiteral(

@@ -370,11 +370,25 @@ TEST_F(MainWindowTest, JogsAreHeldAgainstTheResolution) {
   auto* page = qobject_cast<WarmUpPage*>(window_->currentPage());
   ASSERT_NE(page, nullptr);
   ASSERT_TRUE(page->jogs()->button()->isEnabled());
-  page->jogs()->check();  // two thermal states tens of um apart are no jogs that read true
+  QTest::mouseClick(page->jogs()->button(), Qt::LeftButton);  // two thermal states tens of um apart are no jogs
+  ASSERT_TRUE(waitForJobs(*window_, 60));
   EXPECT_EQ(page->jogs()->rows()->rowCount(), 3);
   EXPECT_EQ(page->jogs()->verdict()->tone(), Tone::Attention);
   EXPECT_TRUE(page->jogs()->verdict()->sentence().startsWith(QStringLiteral("Not passed")))
       << page->jogs()->verdict()->sentence().toStdString();
+  // What is shown is what is stored, and says so when it does not hold any more.
+  const StoredResult* stored = window_->session().latest("check-jogs");
+  ASSERT_NE(stored, nullptr);
+  EXPECT_TRUE(window_->session().state("check-jogs").current);
+  EXPECT_EQ(stored->payload.at("axes").size(), 3U);
+  window_->undoStack().push(
+      new ExcludeCommand(window_->session(), {QStringLiteral("M1/F1/EX")}, QStringLiteral("disturbed")));
+  ASSERT_TRUE(waitForJobs(*window_, 60));
+  EXPECT_EQ(page->jogs()->verdict()->tone(), Tone::Outdated);
+  EXPECT_EQ(page->jogs()->rows()->rowCount(), 3);
+  window_->undoStack().undo();
+  ASSERT_TRUE(waitForJobs(*window_, 60));
+  EXPECT_EQ(page->jogs()->verdict()->tone(), Tone::Attention);
 }
 
 TEST_F(MainWindowTest, WaitingForJobsWaitsForWhatALoadedComputerPutsOff) {

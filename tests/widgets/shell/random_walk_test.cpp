@@ -306,6 +306,10 @@ class RandomWalk : public StoryTest {
       QPushButton* button = window_->currentPage()->primaryButton();
       if (button != nullptr && button->isVisible() && button->isEnabled()) button->click();
       what_ = "press on " + stepTitle(window_->workflow().current()).toStdString();
+      if (random_.index(6) == 0) {
+        window_->runOutdated();
+        what_ += ", run what is outdated";
+      }
     } else if (what < 57) {
       go(StepId::Discrepancy);
       what_ = press(random_.index(2) == 0 ? "Add to the model" : "Remove from the model") ? "add or remove" : "look";

@@ -7,6 +7,7 @@
 #include <QInputDialog>
 #include <QLineEdit>
 #include <QPlainTextEdit>
+#include <QPointer>
 #include <QPushButton>
 #include <QSignalSpy>
 #include <QTabWidget>
@@ -348,6 +349,56 @@ TEST_F(UndoTest, NotesComeBackAsTheyWere) {
   EXPECT_TRUE(notes().empty());
   for (int i = 0; i < 3; ++i) redo();
   EXPECT_EQ(notes(), rest);
+}
+
+TEST_F(UndoTest, ANoteThatIsBegunIsLostByNothing) {
+  open(writeStoryCampaign(folder_, Hidden::Nothing), StepId::Model);
+  const std::int64_t first = session().campaignId();
+  NotesDialog* dialog = window_->openNotes();
+  dialog->about()->setCurrentText(stepTitle(StepId::Capture));
+  dialog->item()->setCurrentText(QString::fromLatin1(a_reading));
+  QTest::keyClicks(dialog->text(), QStringLiteral("The door was"));
+  const auto expectBegun = [&](const char* when) {
+    dialog = window_->openNotes();
+    EXPECT_EQ(dialog->text()->toPlainText(), QStringLiteral("The door was")) << when;
+    EXPECT_EQ(dialog->about()->currentText(), stepTitle(StepId::Capture)) << when;
+    EXPECT_EQ(dialog->item()->currentText(), QString::fromLatin1(a_reading)) << when;
+    EXPECT_TRUE(dialog->addButton()->isEnabled()) << when;
+    dialog->close();
+    settle();
+  };
+  dialog->close();
+  settle();
+  expectBegun("closed");
+  const std::filesystem::path other = folder_ / "other";
+  std::filesystem::copy(session().campaign()->folder, other, std::filesystem::copy_options::recursive);
+  (void)folder_.write("other/note.txt", "so that its content is another");
+  QPointer<NotesDialog> open = window_->openNotes();
+  window_->addCampaign(QString::fromStdString(other.string()));
+  settle();
+  EXPECT_TRUE(open == nullptr || !open->isVisible()) << "it would add to the other campaign";
+  dialog = window_->openNotes();
+  EXPECT_EQ(dialog->text()->toPlainText(), QString()) << "it belongs to the other campaign";
+  dialog->close();
+  session().selectCampaign(first);
+  settle();
+  expectBegun("another campaign");
+  reopen();
+  session().selectCampaign(first);
+  settle();
+  expectBegun("the session opened again");
+  dialog = window_->openNotes();
+  QTest::keyClicks(dialog->text(), QStringLiteral(" open."));
+  press(dialog, "Add the note");
+  dialog->close();
+  settle();
+  ASSERT_EQ(session().notes().size(), 1U);
+  EXPECT_EQ(session().notes().front().text, "The door was open.");
+  EXPECT_EQ(session().notes().front().step, toString(StepId::Capture));
+  EXPECT_EQ(session().notes().front().item, a_reading);
+  dialog = window_->openNotes();
+  EXPECT_EQ(dialog->text()->toPlainText(), QString()) << "added";
+  dialog->close();
 }
 
 TEST_F(UndoTest, ANoteMakesTheReportOutdatedAndItsUndoDoesNot) {

@@ -12,16 +12,16 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <optional>
 
-#include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/imaging/contrast_curve.h"
-#include "core/imaging/jog_validation.h"
 #include "core/math/known_values.h"
 #include "core/workflows/evaluate_campaign.h"
 #include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
 #include "widgets/models/rows_model.h"
+#include "widgets/panels/thermal/resolution_check_panel.h"
 #include "widgets/plots/plot.h"
 #include "widgets/theme/numbers.h"
 
@@ -119,7 +119,7 @@ FiducialCalibratePage::FiducialCalibratePage(PageContext page_context, QWidget* 
                 tr("No mark was seen in enough spindle orientations for a circle through its track.")),
       1);
   add(comparison, tr("Circles"));
-  connect(check_kind_, &QComboBox::activated, this, &FiducialCalibratePage::showResolutionCheck);
+  connect(check_kind_, &QComboBox::activated, this, &FiducialCalibratePage::checkResolution);
   content()->addWidget(tabs_, 1);
   showHints(contrast_);
   connect(evaluate_, &QPushButton::clicked, this, [this] { runTask("evaluate"); });
@@ -200,38 +200,44 @@ void FiducialCalibratePage::showDetails(const StoredEvaluation& evaluation) {
   showSets(evaluation);
   showCircles(evaluation);
   showContrast();
-  showResolutionCheck();
+  showChosenCheck();
 }
 
-void FiducialCalibratePage::showResolutionCheck() {
-  resolution_->setRows({});
-  check_verdict_->set(Tone::Neutral, {});
-  const auto set = session().observations();
-  if (!set || check_kind_->currentIndex() == 0) return;
-  try {
-    const ResolutionCheck check =
-        checkAgainstResolution(*set, session().campaign()->machine, check_kind_->currentIndex() == 1 ? 1.0 : 0.5);
-    std::vector<Row> rows;
-    for (const AxisVerdict& v : check.axes) {
-      Row row;
-      row.id = QString::fromStdString(std::string(toString(v.component)));
-      Cell name{row.id};
-      name.bold = true;
-      row.cells = {
-          name,
-          {shownNumbers(QString::fromStdString(withUncertainty(v.largest_um, v.largest_sigma_um, ""))).trimmed()},
-          {QString::fromStdString(v.largest_at)},
-          {decimalText(v.rms_um, 'f', 2)},
-          {decimalText(v.limit_um, 'f', 2)},
-          {v.passed ? tr("passed") : tr("not passed"), v.passed ? Tone::Good : Tone::Bad,
-           v.passed ? "check-circle" : "error"}};
-      rows.push_back(std::move(row));
-    }
-    resolution_->setRows(std::move(rows));
-    check_verdict_->show(check.passed ? Tone::Good : Tone::Attention, coreSentence(check.reason));
-  } catch (const InputError& e) {
-    check_verdict_->show(Tone::Attention, coreSentence(e.what()));
+void FiducialCalibratePage::checkResolution() {
+  const std::string task = chosenCheck();
+  if (task.empty() || session().state(task).current || !canRun(task)) {
+    showChosenCheck();
+    return;
   }
+  runTask(task, {.done = [this] { showChosenCheck(); }, .failed = [this](const QString&) { showChosenCheck(); }});
+}
+
+std::string FiducialCalibratePage::chosenCheck() const {
+  constexpr std::array tasks{"", "check-jogs", "check-repeatability"};
+  return tasks[static_cast<std::size_t>(std::max(0, check_kind_->currentIndex()))];
+}
+
+void FiducialCalibratePage::showChosenCheck() {
+  check_verdict_->set(Tone::Neutral, {});
+  const std::string task = chosenCheck();
+  const auto check = task.empty() ? std::nullopt : showResolutionCheck(session(), task, *check_verdict_);
+  std::vector<Row> rows;
+  for (const AxisVerdict& v : check ? check->axes : std::vector<AxisVerdict>()) {
+    Row row;
+    row.id = QString::fromStdString(std::string(toString(v.component)));
+    Cell name{row.id};
+    name.bold = true;
+    row.cells = {
+        name,
+        {shownNumbers(QString::fromStdString(withUncertainty(v.largest_um, v.largest_sigma_um, ""))).trimmed()},
+        {QString::fromStdString(v.largest_at)},
+        {decimalText(v.rms_um, 'f', 2)},
+        {decimalText(v.limit_um, 'f', 2)},
+        {v.passed ? tr("passed") : tr("not passed"), v.passed ? Tone::Good : Tone::Bad,
+         v.passed ? "check-circle" : "error"}};
+    rows.push_back(std::move(row));
+  }
+  resolution_->setRows(std::move(rows));
 }
 
 void FiducialCalibratePage::showSets(const StoredEvaluation& evaluation) {

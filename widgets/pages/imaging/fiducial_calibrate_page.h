@@ -2,6 +2,8 @@
 // Step Calibrate for a microscope: captures to deviations, with everything in between that can go wrong made visible.
 #pragma once
 
+#include <string>
+
 #include "widgets/pages/page.h"
 
 class QComboBox;
@@ -30,7 +32,10 @@ class FiducialCalibratePage : public Page {
   void showSets(const StoredEvaluation& evaluation);
   void showCircles(const StoredEvaluation& evaluation);
   void showContrast();
-  void showResolutionCheck();
+  /// What the states are was chosen: the check is run unless its result holds.
+  void checkResolution();
+  [[nodiscard]] std::string chosenCheck() const;  ///< the task; empty: none
+  void showChosenCheck();
 
   QPushButton* evaluate_;
   NumberTile* pixel_;

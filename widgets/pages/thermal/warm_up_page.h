@@ -4,6 +4,7 @@
 
 #include <QElapsedTimer>
 #include <memory>
+#include <string>
 
 #include "core/machine/operating_log.h"
 #include "widgets/pages/page.h"
@@ -30,6 +31,7 @@ class WarmUpPage : public Page {
 
  private:
   void confirm();
+  void check(const std::string& task);
   /// Of the log, and what has come since it was read.
   void showTemperatures();
   /// What was recorded so far, read beside the window.

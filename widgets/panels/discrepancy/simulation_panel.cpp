@@ -19,12 +19,13 @@
 #include "core/base/text.h"
 #include "core/discrepancy/mechanism_choice.h"
 #include "core/tasks/task_options.h"
-#include "core/workflows/open_simulator.h"
+#include "core/tasks/task_work.h"
 #include "widgets/commands/commands.h"
 #include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
 #include "widgets/common/words.h"
 #include "widgets/jobs/task_job.h"
+#include "widgets/jobs/task_run.h"
 #include "widgets/models/cells.h"
 #include "widgets/models/rows_model.h"
 #include "widgets/panels/common/effect_titles.h"
@@ -45,35 +46,7 @@ constexpr int view_history = 1;
 constexpr int view_maps = 2;
 constexpr int height_for_words = 440;
 
-/// A failed run is one sentence for the user, not a mistake of the program.
-template <class Work>
-auto withSentences(const Work& work) {
-  try {
-    return work();
-  } catch (const SimulatorFailed& failed) {
-    throw InputError(std::string(failed.what()));
-  }
-}
-
 }  // namespace
-
-/// Copies for a job.
-struct SimulationPanel::Inputs {
-  std::int64_t visit = 0;
-  std::string simulator;
-  fs::path file;
-  EffectOptions choice;
-  fs::path effects;
-  std::shared_ptr<const Campaign> campaign;
-  ObservationSet observations;
-
-  [[nodiscard]] DiscrepancyRun search(const Campaign& with, const Simulator& simulator_at_hand,
-                                      JobContext& progress) const {
-    DiscrepancyOptions options;
-    options.reject = choice.rejected;
-    return searchDiscrepancy(with, observations, options, simulator_at_hand, progress);
-  }
-};
 
 SimulationPanel::SimulationPanel(PageContext context, QWidget* parent) : QWidget(parent), context_(std::move(context)) {
   auto* column = new QVBoxLayout(this);
@@ -152,20 +125,8 @@ QString SimulationPanel::versionMade() const {
   return version.empty() ? QString() : fromCore(simulatorFile(context_.session, version).string());
 }
 
-nlohmann::json SimulationPanel::choice() const {
-  nlohmann::json out = context_.session.effects().json();
-  out.erase("added");  // terms on top of the simulation are what the simulator is to make unnecessary
-  return out;
-}
-
-nlohmann::json SimulationPanel::resultOptions(const std::string& version) const {
-  return {{"simulator", simulator_}, {"version", version}, {"choice", choice()}};
-}
-
 bool SimulationPanel::current() const {
-  Session* store = context_.session.session();
-  if (store == nullptr || stored_.id == 0 || !store->isCurrent(stored_)) return false;
-  return stored_.provenance.options.value("choice", nlohmann::json()) == choice();
+  return context_.session.campaign() != nullptr && stored_.id != 0 && context_.session.tasks().holds(stored_);
 }
 
 void SimulationPanel::showEvent(QShowEvent* event) {
@@ -264,34 +225,21 @@ void SimulationPanel::openSoon() {
 
 void SimulationPanel::chooseSimulator(const QString& file) {
   SessionModel& session = context_.session;
-  const std::string name = simulatorName(session, file.toStdString());
+  const std::string name = simulatorName(*session.session(), file.toStdString());
   opened_key_.clear();  // it may have changed on the disk
   if (name == simulator_) {
     refresh();
     return;
   }
-  context_.undo.push(
-      new OptionsCommand(session, tr("choose the simulator"), simulatorKey(session), name, [panel = QPointer(this)] {
-        if (panel != nullptr) panel->simulatorChanged();
-      }));
+  context_.undo.push(new OptionsCommand(session, tr("choose the simulator"), simulatorKey(session.campaignId()), name,
+                                        [panel = QPointer(this)] {
+                                          if (panel != nullptr) panel->simulatorChanged();
+                                        }));
 }
 
 void SimulationPanel::simulatorChanged() {
   refresh();
   context_.workflow.refresh();  // a report tells of the one at hand
-}
-
-SimulationPanel::Inputs SimulationPanel::inputs() {
-  SessionModel& session = context_.session;
-  Inputs in;
-  in.visit = session.visit();
-  in.simulator = simulator_;
-  in.file = simulatorFile(session, simulator_);
-  in.choice = session.effects();
-  in.effects = session.effectsFile();
-  in.campaign = session.snapshot().campaign;
-  in.observations = *session.observations();
-  return in;
 }
 
 void SimulationPanel::fail(const QString& sentence) {
@@ -302,25 +250,18 @@ void SimulationPanel::fail(const QString& sentence) {
 void SimulationPanel::search() {
   if (context_.jobs.working() || simulator_.empty() || !context_.session.observations()) return;
   failure_.clear();
-  const PendingResult pending = context_.session.begin(simulation_result, resultOptions({}));
   const auto found = std::make_shared<std::shared_ptr<const DiscrepancyRun>>();
-  const ResultWork work = [in = inputs(), found](JobContext& progress) -> Worked {
-    const auto campaign = in.choice.applied(in.campaign, in.effects);
-    const auto run = withSentences([&] {
-      const auto simulator = openSimulator(in.file, *campaign, in.observations);
-      return std::make_shared<const DiscrepancyRun>(in.search(*campaign, *simulator, progress));
-    });
-    return {SimulationStory::of(*run).json(), [found, run] { *found = run; }};
-  };
-  context_.jobs.run(taskJob(context_.session, pending, tr("Searching with the simulator"), work,
-                            {.done =
-                                 [this, found] {
-                                   const SessionModel& session = context_.session;
-                                   searched_ = {session.visit(), session.latest(simulation_result)->id, *found};
-                                   refresh();
-                                 },
-                             .failed = [this](const QString& sentence) { fail(sentence); },
-                             .cancelled = [this] { refresh(); }}));
+  runTask(context_.session, context_.jobs, "simulation",
+          {.take = [found](const TaskGiven& given) { *found = given.result.as<DiscrepancyRun>(); },
+           .done =
+               [this, found] {
+                 const SessionModel& session = context_.session;
+                 if (const StoredResult* stored = session.latest("simulation"))
+                   searched_ = {session.visit(), stored->id, *found};
+                 refresh();
+               },
+           .failed = [this](const QString& sentence) { fail(sentence); },
+           .cancelled = [this] { refresh(); }});
 }
 
 QString SimulationPanel::proposedFolder() const {
@@ -367,29 +308,20 @@ void SimulationPanel::putInto(const QString& folder) {
     fail(tr("%1 lies in the campaign folder, which is never written to; choose another place.").arg(folder));
     return;
   }
-  const std::string version = simulatorName(context_.session, target / "simulator.json");
+  const std::string version = simulatorName(*context_.session.session(), target / "simulator.json");
   // Anything else is searched anew, as part of the job.
   const bool kept = searched_.run != nullptr && searched_.visit == context_.session.visit() &&
                     searched_.result == stored_.id && current();
   IntoSimulationOptions into;
   if (parameters_->ticksAreTheUsers()) into.mechanisms = parameters_->ticked();
-  const PendingResult pending = context_.session.begin(simulation_result, resultOptions({}));
-  const ResultWork work = [this, in = inputs(), campaign_id = pending.origin.campaign, target, version, into,
+  const PendingResult pending = context_.session.begin("simulation");
+  const ResultWork work = [this, task = SimulationTask::of(context_.session.tasks(), context_.session.taskInputs()),
+                           campaign_id = pending.origin.campaign, target, version, into,
                            before = kept ? searched_.run : nullptr](JobContext& progress) -> Worked {
-    const auto campaign = in.choice.applied(in.campaign, in.effects);
-    const auto run = withSentences([&] {
-      const auto simulator = openSimulator(in.file, *campaign, in.observations);
-      // Answers of the simulator are kept: a search of an earlier session is made again quickly.
-      JobContext searching = progress.part(0.0, 0.4);
-      auto out =
-          std::make_shared<DiscrepancyRun>(before != nullptr ? *before : in.search(*campaign, *simulator, searching));
-      JobContext fitting = progress.part(before != nullptr ? 0.0 : 0.4, 1.0);
-      out->update = updateSimulation(*campaign, *out, *simulator, into, target, fitting);
-      return out;
-    });
+    const auto run = std::make_shared<const DiscrepancyRun>(task.putInto(target, into, before.get(), progress));
     Worked worked{SimulationStory::of(*run).json(), {}};
     if (run->update->status != FitStatus::Converged) return worked;
-    worked.options = {{"version", version}};
+    worked.options = {{"version", version}, {"written", simulatorFingerprint(target / "simulator.json")}};
     // The version is that of the campaign it was made from, whichever is at hand by then.
     worked.stored = [this, campaign_id, version, mechanisms = run->update->mechanisms] {
       context_.undo.push(

@@ -81,11 +81,6 @@ class SimulationPanel : public QWidget {
     std::int64_t result = 0;
     std::shared_ptr<const DiscrepancyRun> run;
   };
-  struct Inputs;
-  [[nodiscard]] Inputs inputs();
-  [[nodiscard]] nlohmann::json choice() const;
-  /// What a result of this panel is kept with; `version`: the simulator that was written, empty if none was.
-  [[nodiscard]] nlohmann::json resultOptions(const std::string& version) const;
   void askForFolder();
   /// Why what is ticked cannot be put in; empty: it can.
   [[nodiscard]] QString whyNotPut() const;

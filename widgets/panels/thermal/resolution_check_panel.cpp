@@ -7,17 +7,45 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/workflows/instrument_checks.h"
 #include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
-#include "widgets/models/rows_model.h"
 #include "widgets/models/session_model.h"
 #include "widgets/theme/numbers.h"
 
 namespace spindrift::gui {
 
+std::optional<ResolutionCheck> showResolutionCheck(const SessionModel& session, const std::string& task,
+                                                   Callout& verdict) {
+  const StoredResult* stored = session.latest(task);
+  if (session.campaign() != nullptr) {
+    if (const TaskStatus status = session.tasks().status(task); status.state == TaskState::Failed) {
+      verdict.show(Tone::Bad, coreSentence(status.reason));
+      return {};
+    }
+  }
+  if (stored == nullptr) {
+    verdict.set(Tone::Neutral, {});
+    return {};
+  }
+  try {
+    ResolutionCheck check = resolutionCheckFrom(stored->payload);
+    if (const ResultState state = session.state(task); !state.current) {
+      verdict.show(Tone::Outdated,
+                   ResolutionCheckPanel::tr("Changed since this was checked: %1. Check again.").arg(state.changed));
+    } else {
+      verdict.show(check.passed ? Tone::Good : Tone::Attention, coreSentence(check.reason));
+    }
+    return check;
+  } catch (const InputError& e) {
+    verdict.show(Tone::Bad, coreSentence(e.what()));
+    return {};
+  }
+}
+
 ResolutionCheckPanel::ResolutionCheckPanel(SessionModel& session, const QString& instruction, const QString& button,
-                                           double part, std::string kind, QWidget* parent)
-    : QWidget(parent), session_(session), part_(part), kind_(std::move(kind)) {
+                                           std::string task, std::function<void()> check, QWidget* parent)
+    : QWidget(parent), session_(session), task_(std::move(task)) {
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(0, 8, 0, 0);
   auto* line = new QHBoxLayout;
@@ -32,47 +60,22 @@ ResolutionCheckPanel::ResolutionCheckPanel(SessionModel& session, const QString&
   column->addWidget(verdict_);
   rows_ = new RowsModel({tr("Axis"), tr("Largest"), tr("Where"), tr("rms"), tr("Allowed"), tr("Verdict")}, this);
   column->addWidget(makeTable(rows_, button, tr("The verdict of each axis appears here after the check.")), 1);
-  connect(button_, &QPushButton::clicked, this, &ResolutionCheckPanel::check);
+  connect(button_, &QPushButton::clicked, this, [check = std::move(check)] { check(); });
 }
 
 void ResolutionCheckPanel::refresh() {
   const auto set = session_.observations();
   button_->setEnabled(set != nullptr && set->states().size() > 1);
-  if (!button_->isEnabled()) {
+  const std::optional<ResolutionCheck> check = showResolutionCheck(session_, task_, *verdict_);
+  if (!button_->isEnabled())
     verdict_->set(Tone::Neutral, tr("Needs observations of at least two states; evaluate the captures first."));
-    rows_->setRows({});
-  } else if (session_.state(kind_).there && session_.state(kind_).current) {
-    check();
-  } else {
-    verdict_->set(Tone::Neutral, {});
-    rows_->setRows({});
-  }
-}
-
-void ResolutionCheckPanel::check() {
-  const auto set = session_.observations();
-  if (!set || session_.campaign() == nullptr) return;
-  try {
-    const ResolutionCheck result = checkAgainstResolution(*set, session_.campaign()->machine, part_);
-    show(result);
-    const ResultState known = session_.state(kind_);
-    if (!known.there || !known.current) {
-      session_.storeResult(kind_, {{"part", part_}}, {{"passed", result.passed}, {"reason", result.reason}});
-    }
-  } catch (const InputError& e) {
-    rows_->setRows({});
-    verdict_->show(Tone::Bad, coreSentence(e.what()));
-  }
-}
-
-void ResolutionCheckPanel::show(const ResolutionCheck& check) {
   std::vector<Row> rows;
   const auto um = [](double value, int digits) {
     Cell cell{QStringLiteral("%1 µm").arg(decimalText(value, 'f', digits))};
     cell.right = true;
     return cell;
   };
-  for (const AxisVerdict& v : check.axes) {
+  for (const AxisVerdict& v : check ? check->axes : std::vector<AxisVerdict>()) {
     Row row;
     row.id = QString::fromStdString(std::string(toString(v.component)));
     Cell name{row.id};
@@ -89,9 +92,6 @@ void ResolutionCheckPanel::show(const ResolutionCheck& check) {
     rows.push_back(std::move(row));
   }
   rows_->setRows(std::move(rows));
-  QString reason = coreSentence(check.reason);
-  if (!reason.isEmpty()) reason[0] = reason[0].toUpper();
-  verdict_->show(check.passed ? Tone::Good : Tone::Attention, reason);
 }
 
 }  // namespace spindrift::gui

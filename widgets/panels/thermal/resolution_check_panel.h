@@ -4,38 +4,44 @@
 #pragma once
 
 #include <QWidget>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include "core/imaging/jog_validation.h"
+#include "widgets/models/rows_model.h"
 
 class QPushButton;
 
 namespace spindrift::gui {
 
 class Callout;
-class RowsModel;
 class SessionModel;
 
 class ResolutionCheckPanel : public QWidget {
   Q_OBJECT
  public:
-  /// `part`: limit as a part of the axis resolution. `kind`: name of the result in the session.
-  ResolutionCheckPanel(SessionModel& session, const QString& instruction, const QString& button, double part,
-                       std::string kind, QWidget* parent = nullptr);
+  /// `task`: "check-jogs" or "check-repeatability"; `check` runs it.
+  ResolutionCheckPanel(SessionModel& session, const QString& instruction, const QString& button, std::string task,
+                       std::function<void()> check, QWidget* parent = nullptr);
+  /// Shows what the session holds.
   void refresh();
-  void check();
   [[nodiscard]] QPushButton* button() const { return button_; }
   [[nodiscard]] Callout* verdict() const { return verdict_; }
   [[nodiscard]] RowsModel* rows() const { return rows_; }
 
  private:
-  void show(const ResolutionCheck& check);
-
   SessionModel& session_;
-  double part_;
-  std::string kind_;
+  std::string task_;
   QPushButton* button_;
   Callout* verdict_;
   RowsModel* rows_;
 };
+
+/// The stored result of such a task, its verdict in the callout; nothing where there is none. Of an outdated one the
+/// callout says what has changed.
+std::optional<ResolutionCheck> showResolutionCheck(const SessionModel& session, const std::string& task,
+                                                   Callout& verdict);
 
 }  // namespace spindrift::gui
