@@ -606,10 +606,6 @@
         <translation>(Leiste bei {:.2f} °C)</translation>
     </message>
     <message>
-        <source>(ex, ey, ez) = (g_x, g_y, g_z) q, of one point</source>
-        <translation>(ex, ey, ez) = (g_x, g_y, g_z) q, an einem Punkt</translation>
-    </message>
-    <message>
         <source>(ex, ey, ez) = -g q n x (p - C centre), n along the axis of the turn</source>
         <translation>(ex, ey, ez) = -g q n x (p - C-Zentrum), n entlang der Drehachse</translation>
     </message>
@@ -3816,10 +3812,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>ex = -g q (y - y0)</translation>
     </message>
     <message>
-        <source>ex = g q (z - z0)^2 / 2, EB = g q (z - z0), ez = -EB r_x</source>
-        <translation>ex = g q (z - z0)^2 / 2, EB = g q (z - z0), ez = -EB r_x</translation>
-    </message>
-    <message>
         <source>exception:</source>
         <translation>Ausnahme:</translation>
     </message>
@@ -3872,10 +3864,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Ausdruck „{}“ von {} ist {} am Punkt {} (x {:g} mm, y {:g} mm, z {:g} mm, c {:g} deg); zulässig: Ausdrücke, die an jedem beobachteten Punkt endlich sind.</translation>
     </message>
     <message>
-        <source>ey = -g q (z - z0)^2 / 2, EA = g q (z - z0), ez = EA r_y</source>
-        <translation>ey = -g q (z - z0)^2 / 2, EA = g q (z - z0), ez = EA r_y</translation>
-    </message>
-    <message>
         <source>ez = 4 g q s (1 - s), s = (y - y1) / (y2 - y1); EA = slope of ez along y</source>
         <translation>ez = 4 g q s (1 - s), s = (y - y1) / (y2 - y1); EA = Steigung von ez entlang y</translation>
     </message>
@@ -3892,20 +3880,12 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>ez = g q, q angetrieben von Wärme x ({} - s0)</translation>
     </message>
     <message>
-        <source>ez = g speed^2</source>
-        <translation>ez = g speed^2</translation>
-    </message>
-    <message>
         <source>e{0} = g q sin(2 pi {0} / pitch) + g&apos; q cos(2 pi {0} / pitch)</source>
         <translation>e{0} = g q sin(2 pi {0} / pitch) + g&apos; q cos(2 pi {0} / pitch)</translation>
     </message>
     <message>
         <source>e{} = g (1 - exp(-t / tau))</source>
         <translation>e{} = g (1 - exp(-t / tau))</translation>
-    </message>
-    <message>
-        <source>e{} = g dir</source>
-        <translation>e{} = g dir</translation>
     </message>
     <message>
         <source>false_alarm_rate {} is not allowed; allowed: above 0, at most 0.2.</source>
@@ -7256,10 +7236,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>wenn keine Aktualisierungen mehr kommen, lässt die Steuerung die Kompensation abklingen</translation>
     </message>
     <message>
-        <source>with</source>
-        <translation>mit</translation>
-    </message>
-    <message>
         <source>with a period of about {:.0f} s</source>
         <translation>mit einer Periode von etwa {:.0f} s</translation>
     </message>
@@ -8766,10 +8742,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Lochleiste</translation>
     </message>
     <message>
-        <source>krpm m</source>
-        <translation>krpm m</translation>
-    </message>
-    <message>
         <source>level &quot;{}&quot; is not known; allowed: easy, medium or hard.</source>
         <translation>Stufe „{}“ ist nicht bekannt; zulässig: easy, medium oder hard.</translation>
     </message>
@@ -9482,14 +9454,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>zeilenweise</translation>
     </message>
     <message>
-        <source>temperature difference of the column, front minus rear</source>
-        <translation>Temperaturdifferenz des Ständers, vorn minus hinten</translation>
-    </message>
-    <message>
-        <source>temperature difference of the column, left minus right</source>
-        <translation>Temperaturdifferenz des Ständers, links minus rechts</translation>
-    </message>
-    <message>
         <source>{} = {}, before {}</source>
         <translation>{} = {}, vorher {}</translation>
     </message>
@@ -9520,6 +9484,78 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>{} scatters {:.{}f} times as much as its stated sigma; it is used as found.</source>
         <translation>{} streut {:.{}f}-mal so stark wie das angegebene sigma; verwendet wird die gefundene Streuung.</translation>
+    </message>
+    <message>
+        <source>(ex, ey, ez) = (gx, gy, gz) q, of one point</source>
+        <translation>(ex, ey, ez) = (gx, gy, gz) q, an einem Punkt</translation>
+    </message>
+    <message>
+        <source>ex = g q (z - z0)^2 / 2, EB = g q (z - z0), ez = -EB rx</source>
+        <translation>ex = g q (z - z0)^2 / 2, EB = g q (z - z0), ez = -EB rx</translation>
+    </message>
+    <message>
+        <source>ey = -g q (z - z0)^2 / 2, EA = g q (z - z0), ez = EA ry</source>
+        <translation>ey = -g q (z - z0)^2 / 2, EA = g q (z - z0), ez = EA ry</translation>
+    </message>
+    <message>
+        <source>ez = g n^2, n the spindle speed</source>
+        <translation>ez = g n^2, n die Spindeldrehzahl</translation>
+    </message>
+    <message>
+        <source>e{} = g d, d = +1 or -1 by the side of the approach</source>
+        <translation>e{} = g d, d = +1 oder -1 je nach Anfahrseite</translation>
+    </message>
+    <message>
+        <source>feed %1</source>
+        <translation>Vorschub %1</translation>
+    </message>
+    <message>
+        <source>first-order time constant</source>
+        <translation>Zeitkonstante erster Ordnung</translation>
+    </message>
+    <message>
+        <source>first-order time constant, another one while it cools</source>
+        <translation>Zeitkonstante erster Ordnung, beim Abkühlen eine andere</translation>
+    </message>
+    <message>
+        <source>instrument switched on</source>
+        <translation>Messgerät eingeschaltet</translation>
+    </message>
+    <message>
+        <source>instrument switched on (assumed)</source>
+        <translation>Messgerät eingeschaltet (angenommen)</translation>
+    </message>
+    <message>
+        <source>position %1</source>
+        <translation>Position %1</translation>
+    </message>
+    <message>
+        <source>pulse at an unknown time</source>
+        <translation>Puls zu unbekannter Zeit</translation>
+    </message>
+    <message>
+        <source>speed %1</source>
+        <translation>Drehzahl %1</translation>
+    </message>
+    <message>
+        <source>spindle speed</source>
+        <translation>Spindeldrehzahl</translation>
+    </message>
+    <message>
+        <source>step at an unknown time</source>
+        <translation>Sprung zu unbekannter Zeit</translation>
+    </message>
+    <message>
+        <source>temperature of %1</source>
+        <translation>Temperatur %1</translation>
+    </message>
+    <message>
+        <source>time constant</source>
+        <translation>Zeitkonstante</translation>
+    </message>
+    <message>
+        <source>none (follows at once)</source>
+        <translation>keine (folgt sofort)</translation>
     </message>
 </context>
 <context>
@@ -13316,26 +13352,6 @@ endgültig fehlgeschlagen: {}</translation>
 </context>
 <context>
     <name>spindrift::gui::EffectsPanel</name>
-    <message>
-        <source>first-order time constant</source>
-        <translation>Zeitkonstante erster Ordnung</translation>
-    </message>
-    <message>
-        <source>first-order time constant, another one while it cools</source>
-        <translation>Zeitkonstante erster Ordnung, beim Abkühlen eine andere</translation>
-    </message>
-    <message>
-        <source>step at an unknown time</source>
-        <translation>Sprung zu unbekannter Zeit</translation>
-    </message>
-    <message>
-        <source>pulse at an unknown time</source>
-        <translation>Puls zu unbekannter Zeit</translation>
-    </message>
-    <message>
-        <source>none: follows at once</source>
-        <translation>keine: folgt sofort</translation>
-    </message>
     <message>
         <source>switched off: it is not named</source>
         <translation>abgeschaltet: wird nicht benannt</translation>
