@@ -14408,10 +14408,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Die Richtungen der Achsen werden einmal gemessen, im Referenzzustand.</translation>
     </message>
     <message>
-        <source>%1 of %2</source>
-        <translation>%1 von %2</translation>
-    </message>
-    <message>
         <source>Excluded: %1</source>
         <translation>Ausgeschlossen: %1</translation>
     </message>

@@ -60,7 +60,6 @@ NineParameterPage::NineParameterPage(PageContext page_context, QWidget* parent)
   addAction(fit_button_);
 
   auto* left = new Card;
-  left->setMinimumWidth(440);
   auto* choices = new QHBoxLayout;
   choices->addWidget(new QLabel(tr("State")));
   state_ = new QComboBox;
@@ -351,11 +350,11 @@ void NineParameterPage::showFit() {
       in_sigma.tone = Tone::Attention;
       in_sigma.icon = "alert";
     }
-    Cell residual{decimalText(r.residual_um, 'f', 2) + QStringLiteral(" µm")};
+    Cell residual{decimalText(r.residual_um, 'f', 2)};
     residual.right = true;
     row.cells = {name,
-                 {QString::fromStdString(std::string(toString(r.component)))},
-                 parameterCell(r.value_um, r.sigma_um, "um"),
+                 {QString::fromStdString(std::string(toString(r.component))) + QStringLiteral(" / µm")},
+                 parameterCell(r.value_um, r.sigma_um, ""),
                  residual,
                  in_sigma,
                  {r.used ? (r.weight < 0.99 ? tr("weight %1").arg(decimalText(r.weight, 'f', 2)) : tr("fit"))

@@ -57,7 +57,7 @@ ArtefactEditor::ArtefactEditor(PageContext page_context, QWidget* parent)
   auto* head = new WrapLayout;
   choice_ = new QComboBox;
   choice_->setAccessibleName(tr("Artefact"));
-  choice_->setMinimumWidth(140);
+  choice_->setMinimumWidth(116);
   auto* add_bar = makeButton(tr("Hole bar"), "plus");
   auto* add_balls = makeButton(tr("Balls"), "plus");
   remove_ = makeButton(tr("Remove"), "trash");
