@@ -481,7 +481,7 @@ class QuietTable : public QTableView {
     return width = std::min(width, longest_word);
   }
 
-  static constexpr int beside_columns = 32;  ///< frame, scroll bar and padding of the style sheet
+  static constexpr int beside_columns = 24;  ///< frame, scroll bar and padding of the style sheet
   static constexpr int around_text = 20;     ///< margins and the padding of the style sheet
   static constexpr int longest_word = 220;
   static constexpr int most_rows_looked_at = 200;

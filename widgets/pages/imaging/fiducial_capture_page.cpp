@@ -71,6 +71,7 @@ FiducialCapturePage::FiducialCapturePage(PageContext page_context, QWidget* pare
   auto* plan_table = makeTable(plan_, tr("Plan"), tr("The plan appears with the first capture."));
   plan_table->setSelectionMode(QAbstractItemView::NoSelection);
   list->body()->addWidget(plan_table, 2);
+  list->setMinimumWidth(500);  // all columns of the plan
 
   auto* picture = new Card(tr("Image"));
   badge_ = new Badge;

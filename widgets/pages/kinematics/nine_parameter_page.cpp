@@ -133,7 +133,7 @@ NineParameterPage::NineParameterPage(PageContext page_context, QWidget* parent)
                       tr("Fit the model: it is drawn over the table with the measured points on top."));
   view_->setMachineVisible(false);
   right->body()->addWidget(view_, 1);
-  content()->addWidget(makeSplitter(left, right, 6, 5), 1);
+  content()->addWidget(makeSplitter(left, right, 13, 10), 1);
   showHints(view_);
 
   connect(fit_button_, &QPushButton::clicked, this, [this] { runTask("fit"); });
