@@ -5,6 +5,7 @@
 
 #include "app/cli/command.h"
 #include "core/base/error.h"
+#include "core/machine/driver_words.h"
 #include "core/workflows/discrepancy_workflow.h"
 #include "core/workflows/exercise.h"
 #include "core/workflows/what_if.h"
@@ -80,7 +81,8 @@ CommandResult continueExercise(const ExerciseArguments& arguments, JobContext& j
       choices.push_back(
           {{"id", choice.id}, {"title", choice.title}, {"family", choice.family}, {"drivers", choice.drivers}});
       result.summary += fmt::format("{:<26} {}\n", choice.id, choice.title);
-      for (const std::string& driver : choice.drivers) result.summary += fmt::format("{:>30}{}\n", "", driver);
+      for (const std::string& driver : choice.drivers)
+        result.summary += fmt::format("{:>30}{}  {}\n", "", driver, driversInWords(driver));
     }
     result.json["choices"] = choices;
     return result;

@@ -7,6 +7,7 @@
 
 #include "core/base/text.h"
 #include "core/discrepancy/effect_titles.h"
+#include "core/machine/driver_words.h"
 
 namespace spindrift {
 
@@ -71,17 +72,12 @@ std::string effectsText(const std::vector<Effect>& effects) {
   std::string text;
   for (const Effect& effect : effects) {
     text += fmt::format("{}  {}{}\n  {}\n", effect.id, titleOf(effect), effect.own ? " (own)" : "", effect.physics);
-    std::vector<std::string> drivers;
-    for (const std::vector<std::string>& inputs : driversOf(effect)) {
-      std::string together;
-      for (const std::string& input : inputs) together += (together.empty() ? "" : " with ") + input;
-      drivers.push_back(std::move(together));
-    }
+    const std::string drivers = driversInWords(driversOf(effect));
     std::string units;
-    for (const ShapeColumn& column : effect.shape) units += (units.empty() ? "" : ", ") + column.gain_unit;
-    text += fmt::format("  shape: {}  (gains: {})\n", effect.formula, units);
-    text += fmt::format("  driven by: {}; dynamics: {}\n",
-                        drivers.empty() ? "nothing logged" : joinedList(drivers, "or"), dynamicsOf(effect));
+    for (const ShapeColumn& column : effect.shape) units += (units.empty() ? "" : ", ") + gainUnit(column.gain_unit);
+    text += fmt::format("  shape: {}  (gains: {})\n", formulaInSymbols(effect.formula), units);
+    text += fmt::format("  driven by: {}; dynamics: {}\n", drivers.empty() ? "nothing logged" : drivers,
+                        dynamicsInWords(dynamicsOf(effect)));
     if (!effect.contains.empty()) text += fmt::format("  nested: {}\n", joinedList(effect.contains));
     for (const std::string& reference : effect.references) text += fmt::format("  see {}\n", reference);
   }

@@ -10,6 +10,7 @@
 
 #include "core/base/text.h"
 #include "core/base/units.h"
+#include "core/machine/driver_words.h"
 #include "core/math/distributions.h"
 #include "core/math/least_squares.h"
 
@@ -253,8 +254,9 @@ WarmUpResult judgeWarmUp(const ObservationSet& observations, const std::string& 
       if (log->time_s()[r] >= from && log->time_s()[r] <= to) take(values[r]);
     }
     constexpr double creep = 1.0;  // rpm or mm/min
-    if (motion && std::max(std::abs(low), std::abs(high)) > creep) at_work.push_back(name);
-    if (temperature && high - low > steady_K) warming.push_back(fmt::format("{} by {:.1f} K", name, high - low));
+    if (motion && std::max(std::abs(low), std::abs(high)) > creep) at_work.push_back(driversInWords(name));
+    if (temperature && high - low > steady_K)
+      warming.push_back(fmt::format("{} by {:.1f} K", driversInWords(name), high - low));
   }
   if (at_work.empty() && warming.empty() && motion_logged) {
     result.cause = WarmUpCause::Instrument;

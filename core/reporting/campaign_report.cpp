@@ -6,6 +6,7 @@
 #include <set>
 
 #include "core/base/text.h"
+#include "core/machine/driver_words.h"
 #include "core/reporting/report_parts.h"
 #include "core/reporting/report_wording.h"
 #include "core/session/fingerprint.h"

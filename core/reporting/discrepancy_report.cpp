@@ -11,6 +11,7 @@
 #include "core/base/text.h"
 #include "core/base/units.h"
 #include "core/discrepancy/effect_titles.h"
+#include "core/machine/driver_words.h"
 #include "core/machine/interpolated_field.h"
 #include "core/reporting/discrepancy_figures.h"
 #include "core/reporting/heatmap_picture.h"

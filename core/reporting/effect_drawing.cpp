@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/base/unit_text.h"
+#include "core/machine/driver_words.h"
 
 namespace spindrift {
 namespace {
@@ -28,13 +28,6 @@ struct EffectView {
 };
 constexpr std::array<EffectView, 3> views{{{"Top", 0, 1}, {"Front", 0, 2}, {"Side", 1, 2}}};
 constexpr const char* letters[3] = {"X", "Y", "Z"};
-
-/// "um_per_m2" -> "µm/m2".
-std::string gainUnitOf(const ShapeColumn& column) {
-  std::string unit = column.gain_unit;
-  if (const std::size_t at = unit.find("_per_"); at != std::string::npos) unit.replace(at, 5, "/");
-  return printedUnit(unit.substr(0, unit.find('_')));
-}
 
 }  // namespace
 
@@ -145,7 +138,7 @@ std::optional<Drawing> effectDrawing(const Effect& effect, const EffectDrawingOp
   small.size = 10.0;
   small.colour = soft;
   std::string legend = fmt::format("largest {} for a gain of 1 {}: {:.3g} {}", rotations ? "rotation" : "displacement",
-                                   gainUnitOf(column), largest, rotations ? "µrad" : "µm");
+                                   gainUnit(column.gain_unit), largest, rotations ? "µrad" : "µm");
   if (!rotations) legend += fmt::format("; drawn {:.1e} times its size", 1e3 * magnified);
   drawing.text(view_gap_px, height - 10.0, legend, small);
   return drawing;

@@ -6,9 +6,9 @@
 #include <utility>
 
 #include "core/base/units.h"
+#include "core/machine/driver_words.h"
 #include "core/reporting/plot_picture.h"
 #include "core/reporting/report_parts.h"
-#include "core/reporting/report_wording.h"
 
 namespace spindrift {
 namespace {

@@ -17,6 +17,7 @@
 #include "core/base/unit_text.h"
 #include "core/discrepancy/effect_listing.h"
 #include "core/discrepancy/effect_titles.h"
+#include "core/machine/driver_words.h"
 #include "core/workflows/discrepancy_workflow.h"
 
 namespace spindrift {
@@ -379,14 +380,15 @@ std::string ExerciseScore::text() const {
   std::string out;
   for (const Line& line : lines) {
     const std::string unit = printedUnit(unitOf(line.hidden.component));
-    out += fmt::format("{}: {}", effectTitle(line.hidden.id),
-                       line.exact           ? "named"
-                       : line.named.empty() ? "not named"
-                                            : fmt::format("{} named, which is nested with it", line.named));
+    out +=
+        fmt::format("{}: {}", effectTitle(line.hidden.id),
+                    line.exact           ? "named"
+                    : line.named.empty() ? "not named"
+                                         : fmt::format("{} named, which is nested with it", effectTitle(line.named)));
     if (line.exact) {
       if (!line.hidden.drivers.empty())
-        out +=
-            line.driver_right ? "; driver right" : fmt::format("; driven by {}", joinedList(line.hidden.drivers, "or"));
+        out += line.driver_right ? "; driver right"
+                                 : fmt::format("; driven by {}", driversInWords(joinedList(line.hidden.drivers, "or")));
       out += fmt::format("; size {:.1f} ± {:.1f} {} in {}", line.hidden.size, line.hidden.size_uncertainty, unit,
                          toString(line.hidden.component));
       if (line.size_named) out += fmt::format(", {:g} given: {}", *line.size_named, line.size_right ? "right" : "off");
@@ -413,7 +415,8 @@ std::string exerciseHintText(const ExerciseKey& key, int number) {
   const std::string names = joinedList(exerciseHint(key, number));
   if (number == 1) return fmt::format("What is missing is largest in {}.", names);
   if (number == 2)
-    return names == "none" ? "Nothing in the log drives it." : fmt::format("It is driven by: {}.", names);
+    return names == "none" ? "Nothing in the log drives it."
+                           : fmt::format("It is driven by: {}.", driversInWords(names));
   std::string families = names;
   std::replace(families.begin(), families.end(), '_', ' ');
   return fmt::format("It belongs to: {}.", families);

@@ -7,6 +7,7 @@
 #include "core/base/text.h"
 #include "core/discrepancy/catalogue.h"
 #include "core/discrepancy/effect_listing.h"
+#include "core/machine/driver_words.h"
 #include "core/reporting/effect_drawing.h"
 #include "core/reporting/markdown_report.h"
 #include "core/reporting/parameter_meanings.h"
@@ -37,12 +38,10 @@ void addEffects(Report& report) {
   for (const Effect& effect : everyEffect()) {
     report.subsection(ReportText(titleOf(effect)) + ReportText::smallPrint("  " + effect.id));
     report.paragraph(effect.physics);
-    std::vector<std::string> drivers;
-    for (const std::vector<std::string>& inputs : driversOf(effect)) drivers.push_back(joinedList(inputs, "with"));
-    ReportFacts facts = {
-        {"Shape", effect.formula},
-        {"Driven by", drivers.empty() ? std::string("nothing that is logged") : joinedList(drivers, "or")},
-        {"Dynamics", dynamicsOf(effect)}};
+    const std::string drivers = driversInWords(driversOf(effect));
+    ReportFacts facts = {{"Shape", formulaInSymbols(effect.formula)},
+                         {"Driven by", drivers.empty() ? std::string("nothing that is logged") : drivers},
+                         {"Dynamics", std::string(dynamicsInWords(dynamicsOf(effect)))}};
     if (!effect.contains.empty()) facts.emplace_back("Nested models", joinedList(effect.contains));
     if (!effect.references.empty()) facts.emplace_back("References", joinedList(effect.references));
     report.facts(facts);

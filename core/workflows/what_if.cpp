@@ -17,6 +17,7 @@
 #include "core/discrepancy/catalogue.h"
 #include "core/discrepancy/effect_listing.h"
 #include "core/machine/campaign.h"
+#include "core/machine/driver_words.h"
 #include "core/reporting/parameter_meanings.h"
 #include "core/reporting/test_part_drawing.h"
 
@@ -159,19 +160,6 @@ constexpr std::string_view standard_machine = R"({"format":"spindrift-machine","
            "scale":"linear_scale","datum_mm":0}],
   "spindle":{"axis":"Z","max_rpm":12000},"table":{"centre_mm":[300,250]},
   "column":{"base_mm":-200,"overhang_mm":[0,-350]},"rotary":[{"name":"C","centre_mm":[300,250,0]}]})";
-
-std::string printedGain(const std::string& gain_unit) {
-  std::string unit = gain_unit;
-  if (const std::size_t at = unit.find("_per_"); at != std::string::npos) unit.replace(at, 5, "/");
-  return printedUnit(unit.substr(0, unit.find('_')));
-}
-
-/// "um_per_m" -> "µm/m", "krpm2" -> "krpm²", "krpm_m" -> "krpm m".
-std::string printedValueUnit(const std::string& unit) {
-  if (unit == "krpm2") return "krpm²";
-  if (unit == "krpm_m") return "krpm m";
-  return printedGain(unit);
-}
 
 nlohmann::json placeJson(const WhatIfPlace& place, const char* name) {
   nlohmann::json out{{name, place.id},
@@ -529,10 +517,9 @@ std::string whatIfText(const WhatIf& what_if) {
     const WhatIfParameter& p = what_if.parameters()[i];
     if (what_if.value(i) == 0.0) continue;
     any = true;
-    out += fmt::format("  {} = {:g} {}  {}", p.id, what_if.value(i), printedValueUnit(p.unit), p.title);
+    out += fmt::format("  {} = {:g} {}  {}", p.id, what_if.value(i), gainUnit(p.unit), p.title);
     if (!p.geometric)
-      out += fmt::format(" ({}, {:g} {} per {})", p.driver, p.sensitivity, printedGain(p.gain_unit),
-                         printedValueUnit(p.unit));
+      out += fmt::format(" ({}, {:g} {} per {})", p.driver, p.sensitivity, gainUnit(p.gain_unit), gainUnit(p.unit));
     out += "\n";
   }
   if (!any) out += "  no error is set; --set NAME=VALUE sets one, --list lists all\n";
@@ -563,10 +550,9 @@ std::string whatIfText(const WhatIf& what_if) {
 std::string whatIfParametersText(const WhatIf& what_if) {
   std::string out;
   for (const WhatIfParameter& p : what_if.parameters()) {
-    out += fmt::format("{:<26} ±{:g} {}  {}", p.id, p.largest, printedValueUnit(p.unit), p.title);
+    out += fmt::format("{:<26} ±{:g} {}  {}", p.id, p.largest, gainUnit(p.unit), p.title);
     if (!p.geometric)
-      out += fmt::format("; {}, {:g} {} per {}", p.driver, p.sensitivity, printedGain(p.gain_unit),
-                         printedValueUnit(p.unit));
+      out += fmt::format("; {}, {:g} {} per {}", p.driver, p.sensitivity, gainUnit(p.gain_unit), gainUnit(p.unit));
     out += "\n";
   }
   return out;

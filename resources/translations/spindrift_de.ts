@@ -622,10 +622,6 @@
         <translation>(Leiste bei {:.2f} °C)</translation>
     </message>
     <message>
-        <source>(ex, ey, ez) = (g_x, g_y, g_z) q, of one point</source>
-        <translation>(ex, ey, ez) = (g_x, g_y, g_z) q, an einem Punkt</translation>
-    </message>
-    <message>
         <source>(ex, ey, ez) = -g q n x (p - C centre), n along the axis of the turn</source>
         <translation>(ex, ey, ez) = -g q n x (p - C-Zentrum), n entlang der Drehachse</translation>
     </message>
@@ -3832,10 +3828,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>ex = -g q (y - y0)</translation>
     </message>
     <message>
-        <source>ex = g q (z - z0)^2 / 2, EB = g q (z - z0), ez = -EB r_x</source>
-        <translation>ex = g q (z - z0)^2 / 2, EB = g q (z - z0), ez = -EB r_x</translation>
-    </message>
-    <message>
         <source>exception:</source>
         <translation>Ausnahme:</translation>
     </message>
@@ -3888,10 +3880,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Ausdruck „{}“ von {} ist {} am Punkt {} (x {:g} mm, y {:g} mm, z {:g} mm, c {:g} deg); zulässig: Ausdrücke, die an jedem beobachteten Punkt endlich sind.</translation>
     </message>
     <message>
-        <source>ey = -g q (z - z0)^2 / 2, EA = g q (z - z0), ez = EA r_y</source>
-        <translation>ey = -g q (z - z0)^2 / 2, EA = g q (z - z0), ez = EA r_y</translation>
-    </message>
-    <message>
         <source>ez = 4 g q s (1 - s), s = (y - y1) / (y2 - y1); EA = slope of ez along y</source>
         <translation>ez = 4 g q s (1 - s), s = (y - y1) / (y2 - y1); EA = Steigung von ez entlang y</translation>
     </message>
@@ -3908,20 +3896,12 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>ez = g q, q angetrieben von Wärme x ({} - s0)</translation>
     </message>
     <message>
-        <source>ez = g speed^2</source>
-        <translation>ez = g speed^2</translation>
-    </message>
-    <message>
         <source>e{0} = g q sin(2 pi {0} / pitch) + g&apos; q cos(2 pi {0} / pitch)</source>
         <translation>e{0} = g q sin(2 pi {0} / pitch) + g&apos; q cos(2 pi {0} / pitch)</translation>
     </message>
     <message>
         <source>e{} = g (1 - exp(-t / tau))</source>
         <translation>e{} = g (1 - exp(-t / tau))</translation>
-    </message>
-    <message>
-        <source>e{} = g dir</source>
-        <translation>e{} = g dir</translation>
     </message>
     <message>
         <source>false_alarm_rate {} is not allowed; allowed: above 0, at most 0.2.</source>
@@ -7256,10 +7236,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>wenn keine Aktualisierungen mehr kommen, lässt die Steuerung die Kompensation abklingen</translation>
     </message>
     <message>
-        <source>with</source>
-        <translation>mit</translation>
-    </message>
-    <message>
         <source>with a period of about {:.0f} s</source>
         <translation>mit einer Periode von etwa {:.0f} s</translation>
     </message>
@@ -8762,10 +8738,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Lochleiste</translation>
     </message>
     <message>
-        <source>krpm m</source>
-        <translation>krpm m</translation>
-    </message>
-    <message>
         <source>level &quot;{}&quot; is not known; allowed: easy, medium or hard.</source>
         <translation>Stufe „{}“ ist nicht bekannt; zulässig: easy, medium oder hard.</translation>
     </message>
@@ -9478,14 +9450,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>zeilenweise</translation>
     </message>
     <message>
-        <source>temperature difference of the column, front minus rear</source>
-        <translation>Temperaturdifferenz des Ständers, vorn minus hinten</translation>
-    </message>
-    <message>
-        <source>temperature difference of the column, left minus right</source>
-        <translation>Temperaturdifferenz des Ständers, links minus rechts</translation>
-    </message>
-    <message>
         <source>{} = {}, before {}</source>
         <translation>{} = {}, vorher {}</translation>
     </message>
@@ -9556,6 +9520,78 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>{} failed: {}</source>
         <translation>{} ist fehlgeschlagen: {}</translation>
+    </message>
+    <message>
+        <source>(ex, ey, ez) = (gx, gy, gz) q, of one point</source>
+        <translation>(ex, ey, ez) = (gx, gy, gz) q, an einem Punkt</translation>
+    </message>
+    <message>
+        <source>ex = g q (z - z0)^2 / 2, EB = g q (z - z0), ez = -EB rx</source>
+        <translation>ex = g q (z - z0)^2 / 2, EB = g q (z - z0), ez = -EB rx</translation>
+    </message>
+    <message>
+        <source>ey = -g q (z - z0)^2 / 2, EA = g q (z - z0), ez = EA ry</source>
+        <translation>ey = -g q (z - z0)^2 / 2, EA = g q (z - z0), ez = EA ry</translation>
+    </message>
+    <message>
+        <source>ez = g n^2, n the spindle speed</source>
+        <translation>ez = g n^2, n die Spindeldrehzahl</translation>
+    </message>
+    <message>
+        <source>e{} = g d, d = +1 or -1 by the side of the approach</source>
+        <translation>e{} = g d, d = +1 oder -1 je nach Anfahrseite</translation>
+    </message>
+    <message>
+        <source>feed %1</source>
+        <translation>Vorschub %1</translation>
+    </message>
+    <message>
+        <source>first-order time constant</source>
+        <translation>Zeitkonstante erster Ordnung</translation>
+    </message>
+    <message>
+        <source>first-order time constant, another one while it cools</source>
+        <translation>Zeitkonstante erster Ordnung, beim Abkühlen eine andere</translation>
+    </message>
+    <message>
+        <source>instrument switched on</source>
+        <translation>Messgerät eingeschaltet</translation>
+    </message>
+    <message>
+        <source>instrument switched on (assumed)</source>
+        <translation>Messgerät eingeschaltet (angenommen)</translation>
+    </message>
+    <message>
+        <source>position %1</source>
+        <translation>Position %1</translation>
+    </message>
+    <message>
+        <source>pulse at an unknown time</source>
+        <translation>Puls zu unbekannter Zeit</translation>
+    </message>
+    <message>
+        <source>speed %1</source>
+        <translation>Drehzahl %1</translation>
+    </message>
+    <message>
+        <source>spindle speed</source>
+        <translation>Spindeldrehzahl</translation>
+    </message>
+    <message>
+        <source>step at an unknown time</source>
+        <translation>Sprung zu unbekannter Zeit</translation>
+    </message>
+    <message>
+        <source>temperature of %1</source>
+        <translation>Temperatur %1</translation>
+    </message>
+    <message>
+        <source>time constant</source>
+        <translation>Zeitkonstante</translation>
+    </message>
+    <message>
+        <source>none (follows at once)</source>
+        <translation>keine (folgt sofort)</translation>
     </message>
 </context>
 <context>
@@ -13353,26 +13389,6 @@ endgültig fehlgeschlagen: {}</translation>
 <context>
     <name>spindrift::gui::EffectsPanel</name>
     <message>
-        <source>first-order time constant</source>
-        <translation>Zeitkonstante erster Ordnung</translation>
-    </message>
-    <message>
-        <source>first-order time constant, another one while it cools</source>
-        <translation>Zeitkonstante erster Ordnung, beim Abkühlen eine andere</translation>
-    </message>
-    <message>
-        <source>step at an unknown time</source>
-        <translation>Sprung zu unbekannter Zeit</translation>
-    </message>
-    <message>
-        <source>pulse at an unknown time</source>
-        <translation>Puls zu unbekannter Zeit</translation>
-    </message>
-    <message>
-        <source>none: follows at once</source>
-        <translation>keine: folgt sofort</translation>
-    </message>
-    <message>
         <source>switched off: it is not named</source>
         <translation>abgeschaltet: wird nicht benannt</translation>
     </message>
@@ -14426,10 +14442,6 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>Directions of the axes are measured once, in the reference state.</source>
         <translation>Die Richtungen der Achsen werden einmal gemessen, im Referenzzustand.</translation>
-    </message>
-    <message>
-        <source>%1 of %2</source>
-        <translation>%1 von %2</translation>
     </message>
     <message>
         <source>Excluded: %1</source>

@@ -33,7 +33,7 @@ TOKEN = re.compile(r'//[^\n]*|/\*.*?\*/|R"(\w*)\((?:.*?)\)\1"|"((?:[^"\\\n]|\\.)
 COMPOSED = ("squareness of {} to {}", "{} = {}, before {}",
             "{} of {} captures cannot be used. Take them again, or exclude them.")
 # Words that stand alone.
-ALONE = ("temperature difference of the column, front minus rear", "temperature difference of the column, left minus right", "push broom", "α about X", "β about Y", "γ about Z", "and", "or", "measured", "simulation", "one", "two", "three", "four", "five", "focus", "spindle changed", "re-levelled", "crash", "repair", "moved", "note", "tilt", "rotation", "Signatures", "Where simulation and measurement disagree", "converged", "degenerate", "no convergence", "rejected", "artefact", "bed", "column", "coolant", "instrument", "room",
+ALONE = ("push broom", "α about X", "β about Y", "γ about Z", "and", "or", "measured", "simulation", "one", "two", "three", "four", "five", "focus", "spindle changed", "re-levelled", "crash", "repair", "moved", "note", "tilt", "rotation", "Signatures", "Where simulation and measurement disagree", "converged", "degenerate", "no convergence", "rejected", "artefact", "bed", "column", "coolant", "instrument", "room",
          "table", "rotary drive")
 # A report is English, but the window lists its sections.
 HEADING = re.compile(r'(?:\bsection\((?:fmt::format\()?|\bsections\.(?:push_back|emplace_back)\(\{?)\s*"([^"]+)"')

@@ -2,17 +2,66 @@
 #include "widgets/common/editor_table.h"
 
 #include <QHeaderView>
+#include <QScrollBar>
 #include <QTableWidget>
+#include <algorithm>
 
 #include "core/base/text.h"
 #include "widgets/common/table_habits.h"
 #include "widgets/common/table_titles.h"
+#include "widgets/common/whole_rows.h"
 #include "widgets/theme/numbers.h"
 
 namespace spindrift::gui {
 
+namespace {
+
+/// All columns are in sight, and three rows.
+class Editor : public QTableWidget {
+ public:
+  using QTableWidget::QTableWidget;
+  [[nodiscard]] QSize minimumSizeHint() const override {
+    const QSize hint = QTableWidget::minimumSizeHint();
+    const int width = leastWidth(true) + beside_columns;
+    const int bar = width > this->width() ? horizontalScrollBar()->sizeHint().height() : 0;
+    const int height = horizontalHeader()->sizeHint().height() + fewest_rows * verticalHeader()->defaultSectionSize() +
+                       bar + 2 * frameWidth() + 2;
+    return {std::max(hint.width(), std::min(width, most_asked_width)), std::max(hint.height(), height)};
+  }
+
+ protected:
+  void updateGeometries() override {
+    auto* titles = dynamic_cast<TableTitles*>(horizontalHeader());
+    const bool narrow = leastWidth(false) > viewport()->width();
+    if (titles != nullptr && titles->narrow() != narrow) {
+      titles->setNarrow(narrow);
+      updateGeometry();  // a second line takes its height
+    }
+    QTableWidget::updateGeometries();
+  }
+  void paintEvent(QPaintEvent* event) override {
+    QTableWidget::paintEvent(event);
+    coverCutRows(*this);
+  }
+
+ private:
+  [[nodiscard]] int leastWidth(bool narrow) const {
+    const auto* titles = dynamic_cast<const TableTitles*>(horizontalHeader());
+    int width = 0;
+    for (int c = 0; titles != nullptr && c < titles->count(); ++c)
+      width += std::max(titles->titleWidth(c, narrow), sizeHintForColumn(c));
+    return width;
+  }
+
+  static constexpr int fewest_rows = 3;
+  static constexpr int beside_columns = 24;  ///< frame and scroll bar of the style sheet
+  static constexpr int most_asked_width = 610;
+};
+
+}  // namespace
+
 QTableWidget* makeEditor(const QStringList& headers, const QString& accessible_name) {
-  auto* table = new QTableWidget(0, static_cast<int>(headers.size()));
+  auto* table = new Editor(0, static_cast<int>(headers.size()));
   table->setHorizontalHeader(new TableTitles(table));
   table->setHorizontalHeaderLabels(headers);
   table->setAccessibleName(accessible_name);
@@ -21,7 +70,6 @@ QTableWidget* makeEditor(const QStringList& headers, const QString& accessible_n
   table->verticalHeader()->setDefaultSectionSize(40);
   table->setSelectionMode(QAbstractItemView::SingleSelection);
   table->setTabKeyNavigation(false);
-  table->setMinimumHeight(150);
   giveTableCopying(table);
   return table;
 }

@@ -42,6 +42,9 @@ HelpText::HelpText(const QString& accessible_name, QWidget* parent) : QTextBrows
   setFrameShape(QFrame::NoFrame);
   setAccessibleName(accessible_name);
   document()->setDefaultFont(textFont(sizes::font_body));
+  setWordWrapMode(QTextOption::WrapAtWordBoundaryOrAnywhere);
+  document()->setDocumentMargin(2);
+  document()->setIndentWidth(20);  // of lists: the panel is narrow
 }
 
 void HelpText::showHelp(const QString& name, const QString& behind) {
@@ -50,7 +53,8 @@ void HelpText::showHelp(const QString& name, const QString& behind) {
 
 QVariant HelpText::loadResource(int type, const QUrl& name) {
   if (type == QTextDocument::ImageResource && name.path().endsWith(QLatin1String(".svg")))
-    return QImage::fromData(translatedFile(name.toString()).toUtf8(), "svg");
+    return QImage::fromData(
+        translatedFile(QLatin1Char(':') + name.path().mid(name.path().indexOf(QLatin1Char('/')))).toUtf8(), "svg");
   return QTextBrowser::loadResource(type, name);
 }
 

@@ -24,6 +24,7 @@
 
 #include "widgets/common/table_habits.h"
 #include "widgets/common/table_titles.h"
+#include "widgets/common/whole_rows.h"
 #include "widgets/theme/fonts.h"
 #include "widgets/theme/icons.h"
 
@@ -312,8 +313,12 @@ QPushButton* makeButton(const QString& text, const char* icon_name, const char* 
 
 namespace {
 
-/// A table that says what will appear while it has no rows, and whose titles are read whatever the rows hold: where one
-/// column takes what the others leave, the widest of these give way until it has room for its title. Numbers never do.
+constexpr int row_height = 32;
+constexpr int fewest_rows = 3;
+
+/// A table that says what will appear while it has no rows, and whose columns are all in sight: titles go on in a
+/// second line where they have no room in one; where one column takes what the others leave, the widest of these give
+/// way until it has room for its title. Numbers never do.
 class QuietTable : public QTableView {
  public:
   /// The column that takes what the others leave; -1: none.
@@ -329,29 +334,54 @@ class QuietTable : public QTableView {
   }
   [[nodiscard]] QSize minimumSizeHint() const override {
     const QSize hint = QTableView::minimumSizeHint();
-    if (stretched() < 0) return hint;
-    int width = 2 * frameWidth() + verticalScrollBar()->sizeHint().width();
-    for (int c = 0; c < horizontalHeader()->count(); ++c)
-      width += holdsNumbers(c) && !isColumnHidden(c) ? std::max(titleWidth(c), contentWidth(c)) : titleWidth(c);
-    return {std::max(hint.width(), std::min(width, most_asked_width)), hint.height()};
+    const bool open = stretched() < 0 && (model() == nullptr || model()->rowCount() == 0);
+    const int width = open ? 0 : leastWidth(true) + beside_columns;  // without rows nothing can be out of sight
+    int rows = 0;
+    for (int row = 0; row < fewest_rows; ++row)
+      rows += row < verticalHeader()->count() ? rowHeight(row) : verticalHeader()->defaultSectionSize();
+    const int bar = width > this->width() && horizontalScrollBarPolicy() != Qt::ScrollBarAlwaysOff
+                        ? horizontalScrollBar()->sizeHint().height()
+                        : 0;
+    const int height =
+        horizontalHeader()->sizeHint().height() + std::min(rows, most_asked_rows) + bar + 2 * frameWidth() + 2;
+    return {std::max(hint.width(), std::min(width, most_asked_width)), std::max(hint.height(), height)};
+  }
+  /// What is in the cells has changed.
+  void forgetWidths() {
+    widths_.clear();
+    words_.clear();
   }
 
  protected:
+  void updateGeometries() override {
+    auto* titles = dynamic_cast<TableTitles*>(horizontalHeader());
+    const bool narrow = leastWidth(false) > viewport()->width();
+    if (titles != nullptr && titles->narrow() != narrow) {
+      titles->setNarrow(narrow);
+      updateGeometry();  // a second line takes its height
+    }
+    QTableView::updateGeometries();
+    // Rows have got other heights.
+    if (const int height = minimumSizeHint().height(); height != asked_height_) {
+      asked_height_ = height;
+      updateGeometry();
+    }
+  }
   int sizeHintForColumn(int column) const override {
     const int wanted = contentWidth(column);
     const int stretch = stretched();
     if (stretch < 0 || stretch == column) return wanted;
-    const int least = titleWidth(column);
+    const int least = leastColumn(column, titleWidth(column));
     if (wanted <= least || holdsNumbers(column)) return wanted;
-    std::vector<std::pair<int, int>> others;  // title, content
+    std::vector<std::pair<int, int>> others;  // least, wanted
     for (int c = 0; c < horizontalHeader()->count(); ++c) {
       if (c == stretch || isColumnHidden(c)) continue;
       const int content = c == column ? wanted : contentWidth(c);
-      others.emplace_back(holdsNumbers(c) ? content : titleWidth(c), content);
+      others.emplace_back(holdsNumbers(c) ? content : leastColumn(c, titleWidth(c)), content);
     }
     // Sentences need the room of a few words, or their cells are columns of syllables.
     const int sentences = wordWrap() ? viewport()->width() * 2 / 5 : 0;
-    const int room = viewport()->width() - std::max(titleWidth(stretch), sentences);
+    const int room = viewport()->width() - std::max(leastColumn(stretch, titleWidth(stretch)), sentences);
     // The width to which columns are limited so that all of them fit, found from the widest down.
     int limit = wanted;
     const auto total = [&] {
@@ -361,6 +391,10 @@ class QuietTable : public QTableView {
     };
     while (limit > least && total() > room) --limit;
     return limit;
+  }
+  void changeEvent(QEvent* event) override {
+    if (event->type() == QEvent::FontChange || event->type() == QEvent::StyleChange) forgetWidths();
+    QTableView::changeEvent(event);
   }
   bool viewportEvent(QEvent* event) override {
     if (event->type() == QEvent::ToolTip) {
@@ -377,9 +411,9 @@ class QuietTable : public QTableView {
   void paintEvent(QPaintEvent* event) override {
     QTableView::paintEvent(event);
     if (model() == nullptr) return;
-    QPainter painter(viewport());
-    for (const QRect& cut : cutRows()) painter.fillRect(cut, theme().surface);
+    coverCutRows(*this);
     if (model()->rowCount() > 0) return;
+    QPainter painter(viewport());
     painter.setFont(textFont(sizes::font_body));
     painter.setPen(theme().text_secondary);
     painter.drawText(viewport()->rect().adjusted(16, 8, -16, -8), Qt::AlignCenter | Qt::TextWordWrap,
@@ -387,31 +421,75 @@ class QuietTable : public QTableView {
   }
 
  private:
-  /// What is seen of rows that have no room for all of their height: they are shown whole or not at all.
-  [[nodiscard]] std::vector<QRect> cutRows() const {
-    std::vector<QRect> cut;
-    if (verticalScrollMode() == QAbstractItemView::ScrollPerPixel || verticalHeader()->count() < 2) return cut;
-    for (const int row : {rowAt(0), rowAt(viewport()->height() - 1)}) {
-      if (row < 0) continue;
-      const QRect place(0, rowViewportPosition(row), viewport()->width(), rowHeight(row));
-      const bool whole = place.top() >= 0 && place.bottom() < viewport()->height();
-      if (!whole && place.height() <= viewport()->height()) cut.push_back(place & viewport()->rect());
-    }
-    return cut;
-  }
   [[nodiscard]] int titleWidth(int column) const {
+    const auto* titles = dynamic_cast<const TableTitles*>(horizontalHeader());
+    return titleWidth(column, titles == nullptr || titles->narrow());
+  }
+  [[nodiscard]] int titleWidth(int column, bool narrow) const {
     if (isColumnHidden(column)) return 0;
-    return std::max(horizontalHeader()->minimumSectionSize(), horizontalHeader()->sectionSizeHint(column));
+    const auto* titles = dynamic_cast<const TableTitles*>(horizontalHeader());
+    return std::max(horizontalHeader()->minimumSectionSize(), titles == nullptr
+                                                                  ? horizontalHeader()->sectionSizeHint(column)
+                                                                  : titles->titleWidth(column, narrow));
+  }
+  /// A column of texts that may go on in further lines or give way: as wide as its title and the longest word.
+  [[nodiscard]] int leastColumn(int column, int title) const {
+    return wordWrap() ? std::max(title, wordWidth(column)) : title;
+  }
+  /// All columns beside each other.
+  [[nodiscard]] int leastWidth(bool narrow) const {
+    const int stretch = stretched();
+    int width = 0;
+    for (int c = 0; model() != nullptr && c < horizontalHeader()->count(); ++c) {
+      if (isColumnHidden(c)) continue;
+      const bool whole = holdsNumbers(c) || (stretch < 0 && !wordWrap());
+      const int title = titleWidth(c, narrow);
+      width += whole ? std::max(title, contentWidth(c)) : leastColumn(c, title);
+    }
+    return width;
   }
   [[nodiscard]] int contentWidth(int column) const {
-    const int hint = QTableView::sizeHintForColumn(column);
+    widths_.resize(static_cast<std::size_t>(std::max(horizontalHeader()->count(), column + 1)), -1);
+    int& width = widths_[static_cast<std::size_t>(column)];
+    if (width >= 0) return width;
+    width = std::max(0, QTableView::sizeHintForColumn(column));
     // The style sheet's check box is wider than the one the style counts with.
     const bool checks =
         model() != nullptr && model()->rowCount() > 0 && model()->index(0, column).data(Qt::CheckStateRole).isValid();
-    return checks ? hint + 16 : hint;
+    if (checks) width += 16;
+    return width;
   }
 
-  static constexpr int most_asked_width = 480;
+  /// The longest word of the cells with what stands beside it.
+  [[nodiscard]] int wordWidth(int column) const {
+    words_.resize(static_cast<std::size_t>(std::max(horizontalHeader()->count(), column + 1)), -1);
+    int& width = words_[static_cast<std::size_t>(column)];
+    if (width >= 0) return width;
+    width = 0;
+    static const QRegularExpression between(QStringLiteral("[ \\x{200b}]"));
+    for (int row = 0; model() != nullptr && row < std::min(model()->rowCount(), most_rows_looked_at); ++row) {
+      const QModelIndex index = model()->index(row, column);
+      const auto* delegate = qobject_cast<const QStyledItemDelegate*>(itemDelegateForIndex(index));
+      const QString text =
+          delegate == nullptr ? index.data().toString() : delegate->displayText(index.data(), QLocale());
+      const QVariant font = index.data(Qt::FontRole);
+      const QFontMetrics metrics(font.isValid() ? font.value<QFont>() : this->font());
+      const int beside = index.data(Qt::DecorationRole).isNull() ? 0 : iconSize().width() + 8;
+      for (const QString& word : text.split(between))
+        width = std::max(width, metrics.horizontalAdvance(word) + beside + around_text);
+    }
+    return width = std::min(width, longest_word);
+  }
+
+  static constexpr int beside_columns = 24;  ///< frame, scroll bar and padding of the style sheet
+  static constexpr int around_text = 20;     ///< margins and the padding of the style sheet
+  static constexpr int longest_word = 220;
+  static constexpr int most_rows_looked_at = 200;
+  static constexpr int most_asked_width = 500;
+  static constexpr int most_asked_rows = 6 * row_height;
+  mutable std::vector<int> widths_;  ///< of the cells of each column; -1: not looked at
+  int asked_height_ = 0;
+  mutable std::vector<int> words_;  ///< of the longest word in them
 };
 
 }  // namespace
@@ -420,6 +498,13 @@ QTableView* makeTable(QAbstractItemModel* model, const QString& accessible_name,
   auto* table = new QuietTable;
   table->setProperty("emptyText", empty_text);
   table->setHorizontalHeader(new TableTitles(table));
+  // Before the view hears of it.
+  const auto forget = [table] { table->forgetWidths(); };
+  QObject::connect(model, &QAbstractItemModel::modelReset, table, forget);
+  QObject::connect(model, &QAbstractItemModel::dataChanged, table, forget);
+  QObject::connect(model, &QAbstractItemModel::layoutChanged, table, forget);
+  QObject::connect(model, &QAbstractItemModel::rowsInserted, table, forget);
+  QObject::connect(model, &QAbstractItemModel::rowsRemoved, table, forget);
   table->setModel(model);
   table->setAccessibleName(accessible_name);
   table->setShowGrid(false);
@@ -430,9 +515,8 @@ QTableView* makeTable(QAbstractItemModel* model, const QString& accessible_name,
   table->setVerticalScrollMode(QAbstractItemView::ScrollPerItem);  // whole rows at the top as well
   table->setHorizontalScrollMode(QAbstractItemView::ScrollPerPixel);
   table->verticalHeader()->hide();
-  table->verticalHeader()->setDefaultSectionSize(36);
-  table->verticalHeader()->setMinimumSectionSize(36);
-  table->setMinimumHeight(120);
+  table->verticalHeader()->setDefaultSectionSize(row_height);
+  table->verticalHeader()->setMinimumSectionSize(row_height);
   giveTableHabits(table);
   // Numbers stand beside the others, not at the far end of a wide table.
   QObject::connect(model, &QAbstractItemModel::modelReset, table, [table] {
@@ -456,13 +540,18 @@ QTableView* makeTable(QAbstractItemModel* model, const QString& accessible_name,
 namespace {
 
 /// Cells whose texts go on in further lines: as high as their lines need beside the padding that the style sheet gives
-/// to cells, of which Qt's own hint knows nothing. Names of files and parameters go on after their dots and strokes.
+/// to cells, of which Qt's own hint knows nothing. Names of files and parameters go on after their dots and strokes, a
+/// value stays with its uncertainty and unit.
 class WrappedCells : public QStyledItemDelegate {
  public:
   using QStyledItemDelegate::QStyledItemDelegate;
   [[nodiscard]] QString displayText(const QVariant& value, const QLocale& locale) const override {
     static const QRegularExpression joints(QStringLiteral("(?<=\\w)([._/])(?=[A-Za-z])"));
-    return QStyledItemDelegate::displayText(value, locale).replace(joints, QStringLiteral("\\1\u200b"));
+    static const QRegularExpression quantity(
+        QString::fromUtf8("(?<=\\d) (?=±|°|%|(µ?m|mm|µrad|K|N|s|h|min|px|rpm)(?!\\w))|(?<=±) "));
+    return QStyledItemDelegate::displayText(value, locale)
+        .replace(joints, QStringLiteral("\\1\u200b"))
+        .replace(quantity, QStringLiteral("\u00a0"));
   }
   [[nodiscard]] QSize sizeHint(const QStyleOptionViewItem& option, const QModelIndex& index) const override {
     constexpr int padding = 6;  // of the style sheet
@@ -477,6 +566,7 @@ class WrappedCells : public QStyledItemDelegate {
 void wrapCells(QTableView* table) {
   table->setWordWrap(true);
   table->setItemDelegate(new WrappedCells(table));
+  if (auto* quiet = dynamic_cast<QuietTable*>(table)) quiet->forgetWidths();
   table->verticalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
 }
 

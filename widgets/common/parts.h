@@ -158,8 +158,8 @@ class EmptyState : public QWidget {
 
 [[nodiscard]] QLabel* makeLabel(const QString& text, const char* role, QWidget* parent = nullptr);
 [[nodiscard]] QPushButton* makeButton(const QString& text, const char* icon_name, const char* role = "secondary");
-/// A read-only table in the program's manner: rows 40 px high, no grid, columns as wide as their content, the last
-/// stretched; sorts nothing by itself.
+/// A read-only table in the program's manner: rows 32 px high, at least three in sight, no grid, columns as wide as
+/// their content, the last stretched; all columns are in sight (titles may go on in a second line).
 /// `empty_text` stands in it while there are no rows.
 [[nodiscard]] QTableView* makeTable(QAbstractItemModel* model, const QString& accessible_name,
                                     const QString& empty_text = {});

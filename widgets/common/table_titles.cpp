@@ -2,6 +2,7 @@
 #include "widgets/common/table_titles.h"
 
 #include <QPainter>
+#include <algorithm>
 
 #include "widgets/theme/fonts.h"
 #include "widgets/theme/icons.h"
@@ -27,17 +28,43 @@ TableTitles::TableTitles(QWidget* parent) : QHeaderView(Qt::Horizontal, parent) 
   setHighlightSections(false);
 }
 
-QString TableTitles::title(int section) const {
-  return model() == nullptr ? QString() : model()->headerData(section, Qt::Horizontal).toString();
+void TableTitles::setNarrow(bool narrow) {
+  if (narrow == narrow_) return;
+  narrow_ = narrow;
+  if (count() > 0) headerDataChanged(orientation(), 0, count() - 1);  // the height anew
+  resizeSections();
+  updateGeometry();
+}
+
+QString TableTitles::title(int section, bool narrow) const {
+  QString text = model() == nullptr ? QString() : model()->headerData(section, Qt::Horizontal).toString();
+  if (!narrow || text.contains(QLatin1Char('\n'))) return text;
+  const QFontMetrics metrics(titleFont());
+  qsizetype best = -1;
+  int least = metrics.horizontalAdvance(text);
+  for (qsizetype at = text.indexOf(QLatin1Char(' ')); at >= 0; at = text.indexOf(QLatin1Char(' '), at + 1)) {
+    if (at >= 1 && text[at - 1] == QLatin1Char('/')) continue;  // "/ µm" stays together
+    const int width = std::max(metrics.horizontalAdvance(text.left(at)), metrics.horizontalAdvance(text.mid(at + 1)));
+    if (width >= least) continue;
+    least = width;
+    best = at;
+  }
+  if (best >= 0) text[best] = QLatin1Char('\n');
+  return text;
 }
 
 bool TableTitles::ordered(int section) const {
   return isSortIndicatorShown() && sortIndicatorSection() == section;
 }
 
+int TableTitles::titleWidth(int section, bool narrow) const {
+  return QFontMetrics(titleFont()).size(0, title(section, narrow)).width() + 2 * padding +
+         (ordered(section) ? before_mark + mark : 0);
+}
+
 QSize TableTitles::sectionSizeFromContents(int section) const {
-  const QSize text = QFontMetrics(titleFont()).size(0, title(section));
-  return {text.width() + 2 * padding + (ordered(section) ? before_mark + mark : 0), text.height() + 2 * padding + 1};
+  const int height = QFontMetrics(titleFont()).size(0, title(section, narrow_)).height();
+  return {titleWidth(section, narrow_), height + 2 * padding + 1};
 }
 
 void TableTitles::paintSection(QPainter* painter, const QRect& place, int section) const {
@@ -56,7 +83,7 @@ void TableTitles::paintSection(QPainter* painter, const QRect& place, int sectio
   painter->setFont(titleFont());
   painter->setPen(theme().text_secondary);
   const QFontMetrics metrics(titleFont());
-  QStringList lines = title(section).split(QLatin1Char('\n'));
+  QStringList lines = title(section, narrow_).split(QLatin1Char('\n'));
   for (QString& line : lines) line = metrics.elidedText(line, Qt::ElideRight, room.width());
   painter->drawText(room, static_cast<int>(alignment), lines.join(QLatin1Char('\n')));
   painter->restore();

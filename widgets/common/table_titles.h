@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The titles over the columns of a table. A title is as wide as its text and keeps no place for the mark of an order
 // that is not there: with a style sheet the style takes that place from every title, and cuts short ones ("Bal",
-// "Stat").
+// "Stat"). Where the columns have no room beside each other the titles go on in a second line.
 #pragma once
 
 #include <QHeaderView>
@@ -11,14 +11,21 @@ namespace spindrift::gui {
 class TableTitles : public QHeaderView {
  public:
   explicit TableTitles(QWidget* parent);
+  /// In two lines, each title as narrow as its words allow.
+  void setNarrow(bool narrow);
+  [[nodiscard]] bool narrow() const { return narrow_; }
+  /// What a title asks for in one line, or in two.
+  [[nodiscard]] int titleWidth(int section, bool narrow) const;
 
  protected:
   [[nodiscard]] QSize sectionSizeFromContents(int section) const override;
   void paintSection(QPainter* painter, const QRect& place, int section) const override;
 
  private:
-  [[nodiscard]] QString title(int section) const;
+  [[nodiscard]] QString title(int section, bool narrow) const;
   [[nodiscard]] bool ordered(int section) const;
+
+  bool narrow_ = false;
 };
 
 }  // namespace spindrift::gui

@@ -90,6 +90,7 @@ class Plot : public QWidget {
   [[nodiscard]] QSize minimumSizeHint() const override { return {220, 150}; }
 
  Q_SIGNALS:
+  /// What is under the cursor: a value with its uncertainty, else the place on the axes; empty: the cursor has left.
   void hovered(const QString& text);
   void spanMoved(int index, double from, double to);
   /// The user clicked a value, within 12 pixels: its place on the x axis and in its series.
@@ -126,6 +127,9 @@ class Plot : public QWidget {
   [[nodiscard]] std::optional<std::pair<std::size_t, bool>> spanEdgeAt(double pixel_x) const;
   bool dragSpan(QEvent* event);
   void pickValue(QEvent* event);
+  /// Series and index of the value next to a place of the plot, within reach of the cursor.
+  [[nodiscard]] std::optional<std::pair<std::size_t, std::size_t>> valueAt(const QPointF& place) const;
+  [[nodiscard]] QString textAt(const QPointF& place) const;
   void placeMoment();
   void drawMark(Mark& mark);
   void placeMarks();

@@ -2,9 +2,11 @@
 // What the mouse does in a plot: values picked, edges of spans dragged, what stands under the cursor.
 #include <QLineF>
 #include <QMouseEvent>
+#include <QToolTip>
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/text.h"
 #include "widgets/plots/plot.h"
 #include "widgets/plots/qcustomplot_header.h"
 #include "widgets/theme/numbers.h"
@@ -21,9 +23,49 @@ QPointF Plot::pixelOf(double x, double y) const {
   return {plot_->xAxis->coordToPixel(x), plot_->yAxis->coordToPixel(y)};
 }
 
+std::optional<std::pair<std::size_t, std::size_t>> Plot::valueAt(const QPointF& place) const {
+  constexpr double reach_px = 12;
+  double nearest = reach_px;
+  std::optional<std::pair<std::size_t, std::size_t>> found;
+  for (std::size_t k = 0; k < series_.size(); ++k) {
+    for (std::size_t i = 0; i < series_[k].x.size(); ++i) {
+      const double x = plot_->xAxis->coordToPixel(series_[k].x[i]);
+      if (std::abs(x - place.x()) >= nearest) continue;
+      const double distance = QLineF(place, {x, plot_->yAxis->coordToPixel(series_[k].y[i])}).length();
+      if (!(distance < nearest)) continue;
+      nearest = distance;
+      found = {k, i};
+    }
+  }
+  return found;
+}
+
+QString Plot::textAt(const QPointF& place) const {
+  const auto quantity = [](const QString& title) { return title.section(QStringLiteral(" / "), 0, 0); };
+  const auto unit = [](const QString& title) { return title.section(QStringLiteral(" / "), 1); };
+  const auto number = [](double v, const QString& of) {
+    const QString text = decimalText(v, 'g', 4);
+    return of.isEmpty() ? text : text + QLatin1Char(' ') + of;
+  };
+  const auto found = valueAt(place);
+  if (!found) {
+    return quantity(x_title_) + QStringLiteral(" = ") + number(plot_->xAxis->pixelToCoord(place.x()), unit(x_title_)) +
+           QStringLiteral(",  ") + quantity(y_title_) + QStringLiteral(" = ") +
+           number(plot_->yAxis->pixelToCoord(place.y()), unit(y_title_));
+  }
+  const Series& series = series_[found->first];
+  const std::size_t i = found->second;
+  const double sigma = i < series.sigma.size() ? series.sigma[i] : 0.0;
+  const QString value =
+      sigma > 0.0
+          ? shownNumbers(QString::fromStdString(withUncertainty(series.y[i], sigma, unit(y_title_).toStdString())))
+          : number(series.y[i], unit(y_title_));
+  return (series.name.isEmpty() ? quantity(y_title_) : series.name) + QStringLiteral(", ") + quantity(x_title_) +
+         QLatin1Char(' ') + number(series.x[i], unit(x_title_)) + QStringLiteral(": ") + value;
+}
+
 void Plot::pickValue(QEvent* event) {
   constexpr double still_px = 4;
-  constexpr double reach_px = 12;
   const auto* mouse = static_cast<QMouseEvent*>(event);
   if (mouse->button() != Qt::LeftButton) return;
   const QPointF place = mouse->position();
@@ -32,16 +74,8 @@ void Plot::pickValue(QEvent* event) {
     return;
   }
   if (QLineF(place, pressed_at_).length() > still_px) return;  // dragged
-  double nearest = reach_px;
-  std::optional<std::pair<std::size_t, std::size_t>> found;
-  for (std::size_t k = 0; k < series_.size(); ++k) {
-    for (std::size_t i = 0; i < series_[k].x.size(); ++i) {
-      const double distance = QLineF(place, pixelOf(series_[k].x[i], series_[k].y[i])).length();
-      if (!(distance < nearest)) continue;
-      nearest = distance;
-      found = {k, i};
-    }
-  }
+  drawIfStale();
+  const auto found = valueAt(place);
   if (!found) return;
   Q_EMIT picked(series_[found->first].x[found->second], static_cast<int>(found->first),
                 static_cast<int>(found->second));
@@ -106,14 +140,13 @@ bool Plot::eventFilter(QObject* watched, QEvent* event) {
       return true;
     }
     if (event->type() == QEvent::MouseMove) {
-      const QPointF p = static_cast<QMouseEvent*>(event)->position();
-      const auto number = [](double v) {
-        QString text = decimalText(v, 'g', 4);
-        return text;
-      };
-      Q_EMIT hovered(x_title_ + QStringLiteral(" = ") + number(plot_->xAxis->pixelToCoord(p.x())) +
-                     QStringLiteral(",  ") + y_title_ + QStringLiteral(" = ") +
-                     number(plot_->yAxis->pixelToCoord(p.y())));
+      const auto* mouse = static_cast<QMouseEvent*>(event);
+      const QString text = textAt(mouse->position());
+      if (valueAt(mouse->position()))
+        QToolTip::showText(mouse->globalPosition().toPoint(), text, plot_);
+      else
+        QToolTip::hideText();
+      Q_EMIT hovered(text);
     }
     if (event->type() == QEvent::Leave) Q_EMIT hovered({});
   }

@@ -73,7 +73,7 @@ CommandPalette::CommandPalette(std::vector<Command> commands, QWidget* parent)
   setObjectName(QStringLiteral("commandPalette"));
   setWindowTitle(tr("Find a command"));
   setAttribute(Qt::WA_DeleteOnClose);
-  resize(760, 480);
+  resize(840, 480);
   auto* column = new QVBoxLayout(this);
   column->setSpacing(8);
   field_ = new QLineEdit;

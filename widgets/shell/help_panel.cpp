@@ -48,7 +48,7 @@ QString effectsHtml() {
     html += QStringLiteral("<li><b>%1</b> (%2): %3 <i>%4</i></li>")
                 .arg(sentenceStart(effectTitle(effect.id)).toHtmlEscaped(),
                      QString::fromStdString(effect.id).toHtmlEscaped(), coreSentence(effect.physics).toHtmlEscaped(),
-                     QString::fromStdString(effect.formula).toHtmlEscaped());
+                     formulaText(effect.formula).toHtmlEscaped());
   }
   return html + QStringLiteral("</ul>");
 }
@@ -59,7 +59,7 @@ HelpPanel::HelpPanel(QWidget* parent) : QFrame(parent) {
   setAccessibleName(tr("Help on this step"));
   setFixedWidth(320);
   auto* column = new QVBoxLayout(this);
-  column->setContentsMargins(12, 8, 8, 8);
+  column->setContentsMargins(10, 8, 6, 8);
   auto* head = new QHBoxLayout;
   head->addWidget(makeLabel(tr("Help"), "sectionTitle"), 1);
   auto* close = new QToolButton;

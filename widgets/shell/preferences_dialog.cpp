@@ -81,6 +81,7 @@ PreferencesDialog::PreferencesDialog(QWidget* parent) : QDialog(parent) {
   QFormLayout* folders = section(outer, tr("Folders"));
   auto* line = new QHBoxLayout;
   folder_ = named(new QLineEdit, "sessions_folder", tr("Folder for new sessions"));
+  folder_->setMinimumWidth(240);
   auto* choose = makeButton(tr("Choose …"), "folder-open");
   choose->setAccessibleName(tr("Choose the folder for new sessions"));
   choose->setAutoDefault(false);

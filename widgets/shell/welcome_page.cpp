@@ -10,6 +10,7 @@
 #include <QPushButton>
 #include <QScrollArea>
 #include <QVBoxLayout>
+#include <algorithm>
 #include <cmath>
 
 #include "widgets/common/parts.h"
@@ -138,7 +139,20 @@ DemoCard::DemoCard(const Demo& demo, QWidget* parent) : QAbstractButton(parent),
   setCursor(Qt::PointingHandCursor);
   setFocusPolicy(Qt::StrongFocus);
   setAttribute(Qt::WA_Hover);
-  setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
+  // As high as the highest of the row.
+  QSizePolicy policy(QSizePolicy::Expanding, QSizePolicy::Preferred);
+  policy.setHeightForWidth(true);
+  setSizePolicy(policy);
+}
+
+int DemoCard::heightForWidth(int width) const {
+  const QRect lines(0, 0, width - 28, 1000);
+  const auto height = [&](const QFont& font, const QString& text) {
+    return QFontMetrics(font).boundingRect(lines, Qt::TextWordWrap, text).height();
+  };
+  const int needed = 118 + height(textFont(sizes::font_body, QFont::DemiBold), demo_.title) +
+                     height(textFont(sizes::font_secondary), demo_.sentence) + 12;
+  return std::max(sizeHint().height(), needed);
 }
 
 void DemoCard::paintEvent(QPaintEvent*) {

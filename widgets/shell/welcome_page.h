@@ -19,6 +19,9 @@ class DemoCard : public QAbstractButton {
  public:
   explicit DemoCard(const Demo& demo, QWidget* parent = nullptr);
   [[nodiscard]] QSize sizeHint() const override { return {230, 228}; }
+  /// Picture, title and sentence in as many lines as they need.
+  [[nodiscard]] bool hasHeightForWidth() const override { return true; }
+  [[nodiscard]] int heightForWidth(int width) const override;
   [[nodiscard]] QSize minimumSizeHint() const override { return {200, 200}; }
 
  protected:

@@ -19,7 +19,6 @@
 #include <algorithm>
 
 #include "core/base/error.h"
-#include "core/reporting/report_wording.h"
 #include "widgets/common/parts.h"
 #include "widgets/common/words.h"
 #include "widgets/jobs/job_runner.h"
@@ -295,8 +294,7 @@ void ExerciseDialog::fillDrivers(const AnswerRow& row) {
     row.driver->addItem(tr("Nothing in the log"));
   } else {
     row.driver->addItem(tr("Driver …"));
-    for (const std::string& driver : choice->drivers)
-      row.driver->addItem(fromCore(driversInWords(driver)), fromCore(driver));
+    for (const std::string& driver : choice->drivers) row.driver->addItem(driverWords(driver), fromCore(driver));
   }
 }
 
@@ -386,7 +384,7 @@ void ExerciseDialog::showScore(const ExerciseKey& key) {
         tr("%1 in %2")
             .arg(withError(line.hidden.size, line.hidden.size_uncertainty, unit), componentName(line.hidden.component));
     QString driver = tr("nothing in the log");
-    if (!line.hidden.drivers.empty()) driver = fromCore(driversInWords(line.hidden.drivers.front()));
+    if (!line.hidden.drivers.empty()) driver = driverWords(line.hidden.drivers.front());
     Row row;
     row.id = fromCore(line.hidden.id);
     row.cells = {nameCell(sentenceStart(effectTitle(line.hidden.id))),

@@ -17,7 +17,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/reporting/report_wording.h"
 #include "core/reporting/test_part_drawing.h"
 #include "widgets/common/core_sentence.h"
 #include "widgets/common/drawing_painter.h"
@@ -38,8 +37,6 @@ constexpr int box_width = 152;
 constexpr double largest_arrow = 0.4;  ///< of the longest travel
 
 QString valueUnit(const WhatIfParameter& p) {
-  if (p.unit == "krpm2") return QStringLiteral("krpm²");
-  if (p.unit == "krpm_m") return QStringLiteral("krpm·m");
   return gainUnitText(p.unit);
 }
 
@@ -264,7 +261,7 @@ void WhatIfWindow::addControl(std::size_t parameter, QLabel* heading, QVBoxLayou
     auto* note = makeLabel(driver, "secondaryText");
     note->setWordWrap(true);
     box->addWidget(note);
-    tip = QStringLiteral("%1\n%2").arg(coreSentence(p.physics), fromCore(p.formula));
+    tip = QStringLiteral("%1\n%2").arg(coreSentence(p.physics), formulaText(p.formula));
     control.text = driver;
   }
   control.text += QLatin1Char(' ') + name + QLatin1Char(' ') + fromCore(p.id);

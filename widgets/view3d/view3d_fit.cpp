@@ -22,8 +22,8 @@ constexpr double surface_axis_px = 56;
 /// Of the height at most this is left to the notes.
 constexpr double most_for_notes = 0.35;
 /// Panes narrower than this are too small for a colour bar with a place of its own.
-constexpr int narrow_px = 240;
-constexpr int least_for_bar_below_px = 280;
+constexpr int narrow_px = 200;
+constexpr int least_for_bar_below_px = 220;
 
 }  // namespace
 

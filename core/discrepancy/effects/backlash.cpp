@@ -16,7 +16,7 @@ void backlash(const CatalogueContext& context, std::vector<Effect>& out) {
     effect.id = std::string("backlash.") + axis_letters[axis];
     effect.title = "backlash of %1";
     effect.subject = axis_names[axis];
-    effect.formula = fmt::format("e{} = g dir", axis_letters[axis]);
+    effect.formula = fmt::format("e{} = g d, d = +1 or -1 by the side of the approach", axis_letters[axis]);
     effect.references = {references::iso_230_2, references::schwenke};
     effect.physics = "Play between nut and screw: the axis stops on the side from which it came.";
     effect.shape = {{"um", [component, axis](const DeviationQuery& q, Component c) {

@@ -10,7 +10,7 @@ void addBendingShape(const MachineDescription& machine, int axis, Effect& effect
   const Component side = axis == 0 ? Component::EY : Component::EX;
   const Component turn = axis == 0 ? Component::EA : Component::EB;
   const double sign = axis == 0 ? -1.0 : 1.0;
-  // a: ez = EA r_y; b: ez = -EB r_x
+  // a: ez = EA ry; b: ez = -EB rx
   std::optional<double> lever_m;
   if (machine.column_overhang_mm) {
     lever_m = (axis == 0 ? machine.column_overhang_mm->y() : -machine.column_overhang_mm->x()) * 1e-3;
@@ -47,8 +47,8 @@ void column(const CatalogueContext& context, std::vector<Effect>& out) {
     Effect bending;
     bending.id = axis == 0 ? "column.bending.a" : "column.bending.b";
     bending.title = axis == 0 ? "bending of the column towards Y" : "bending of the column towards X";
-    bending.formula = axis == 0 ? "ey = -g q (z - z0)^2 / 2, EA = g q (z - z0), ez = EA r_y"
-                                : "ex = g q (z - z0)^2 / 2, EB = g q (z - z0), ez = -EB r_x";
+    bending.formula = axis == 0 ? "ey = -g q (z - z0)^2 / 2, EA = g q (z - z0), ez = EA ry"
+                                : "ex = g q (z - z0)^2 / 2, EB = g q (z - z0), ez = -EB rx";
     bending.references = {references::timoshenko, references::mayr};
     bending.physics =
         "A temperature difference across the column bends it about its base: the deviation grows with the square of "

@@ -15,8 +15,8 @@ void external_heat(const CatalogueContext& context, std::vector<Effect>& out) {
     effect.title = kind == 0   ? "heat from outside that bends the column towards Y"
                    : kind == 1 ? "heat from outside that bends the column towards X"
                                : "heat from outside that acts along Z";
-    effect.formula = kind == 0   ? "ey = -g q (z - z0)^2 / 2, EA = g q (z - z0), ez = EA r_y"
-                     : kind == 1 ? "ex = g q (z - z0)^2 / 2, EB = g q (z - z0), ez = -EB r_x"
+    effect.formula = kind == 0   ? "ey = -g q (z - z0)^2 / 2, EA = g q (z - z0), ez = EA ry"
+                     : kind == 1 ? "ex = g q (z - z0)^2 / 2, EB = g q (z - z0), ez = -EB rx"
                                  : "ez = g q";
     effect.references = {references::iso_230_3, references::bryan};
     effect.physics =

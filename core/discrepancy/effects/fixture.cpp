@@ -15,7 +15,7 @@ void fixture(const CatalogueContext& context, std::vector<Effect>& out) {
     effect.id = "fixture.slip." + point;
     effect.title = "slip of point %1 in its fixture";
     effect.subject = point;
-    effect.formula = "(ex, ey, ez) = (g_x, g_y, g_z) q, of one point";
+    effect.formula = "(ex, ey, ez) = (gx, gy, gz) q, of one point";
     effect.physics = "The fixture of this point slipped once and stayed where it went.";
     for (int axis = 0; axis < 3; ++axis) {
       const auto component = static_cast<Component>(axis);

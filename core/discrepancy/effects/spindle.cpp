@@ -30,7 +30,7 @@ void spindle(const CatalogueContext& context, std::vector<Effect>& out) {
   Effect centrifugal;
   centrifugal.id = "spindle.centrifugal.z";
   centrifugal.title = "shortening of the spindle by its speed along Z";
-  centrifugal.formula = "ez = g speed^2";
+  centrifugal.formula = "ez = g n^2, n the spindle speed";
   centrifugal.references = {references::abele, references::harris};
   centrifugal.physics =
       "Centrifugal forces change the bearing contact and the diameter of the shaft, so the nose moves along Z with the "

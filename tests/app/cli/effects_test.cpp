@@ -6,6 +6,7 @@
 #include <cmath>
 #include <fstream>
 #include <memory>
+#include <regex>
 
 #include "core/base/random.h"
 #include "tests/app/cli/child_process.h"
@@ -143,7 +144,16 @@ TEST_F(OwnEffectsCli, EffectsListsTheCatalogueAndOwnOnes) {
   ASSERT_EQ(own["effects"].size(), 4U);
   EXPECT_EQ(own["effects"][1]["shape"][0]["EX"], "-y");
   EXPECT_EQ(own["effects"][3]["drivers"], nlohmann::json::array({"T_room_degC"}));
-  EXPECT_NE(runCli({"effects"}).output.find("thermal expansion of the X ball screw"), std::string::npos);
+  const std::string text = runCli({"effects"}).output;
+  EXPECT_NE(text.find("thermal expansion of the X ball screw"), std::string::npos);
+  // Drivers, dynamics, gains and formulas in the words and symbols of the field.
+  EXPECT_NE(text.find("temperature difference front minus rear of the column"), std::string::npos);
+  EXPECT_NE(text.find("EY = −g q (z − z₀)² / 2"), std::string::npos) << text;
+  EXPECT_NE(text.find("µm/m²"), std::string::npos);
+  static const std::regex of_files(
+      R"((column_(side_)?difference|_rpm|_degC|_per_|feed_|pos_|speed_|instrument_on|\^\d|dynamics: (lag|asymmetric)\b).*)");
+  std::smatch match;
+  EXPECT_FALSE(std::regex_search(text, match, of_files)) << match.str();
 }
 
 }  // namespace

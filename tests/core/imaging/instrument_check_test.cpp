@@ -179,10 +179,10 @@ TEST(WarmUp, TellsTheInstrumentFromTheMachineOrSaysThatItCannot) {
   const OperatingLog work = logOf(3000.0, 8.0);
   const WarmUpResult unknown = judgeWarmUp(drifting, "", {}, &work);
   EXPECT_EQ(unknown.cause, WarmUpCause::Unknown);
-  EXPECT_THAT(unknown.cause_reason, HasSubstr("at work (spindle_rpm)"));
+  EXPECT_THAT(unknown.cause_reason, HasSubstr("at work (spindle speed)"));
   EXPECT_THAT(unknown.cause_reason, HasSubstr("cannot be separated"));
   const OperatingLog warm = logOf(0.0, 8.0);
-  EXPECT_THAT(judgeWarmUp(drifting, "", {}, &warm).cause_reason, HasSubstr("T_column_degC by 2.4 K changed"));
+  EXPECT_THAT(judgeWarmUp(drifting, "", {}, &warm).cause_reason, HasSubstr("temperature of column by 2.4 K changed"));
   EXPECT_THAT(judgeWarmUp(drifting, "", {}, nullptr).cause_reason, HasSubstr("Without a log"));
   OperatingLog temperatures_only({-600.0, 9000.0});
   temperatures_only.setSignal("T_column_degC", {20.0, 20.1});

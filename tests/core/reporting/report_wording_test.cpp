@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Units, effects, parameters and signals as a report prints them.
 #include "core/reporting/report_wording.h"
+#include "core/discrepancy/catalogue.h"
+#include "core/machine/driver_words.h"
 
 #include <gmock/gmock.h>
 
@@ -34,7 +36,11 @@ TEST(PrintedText, ParametersAndSignalsAreWordsWithAUnit) {
   EXPECT_EQ(parameterTitle("gain_um_per_m_per_m_per_min"), "gain / µm/((m/min) m)");
   EXPECT_EQ(parameterTitle("gain_um_per_krpm"), "gain / µm/(1000 rpm)");
   EXPECT_EQ(parameterTitle("gain_um"), "gain / µm");
+  EXPECT_EQ(parameterTitle("gain_um_per_krpm1.5"), "gain / µm/(1000 rpm)¹·⁵");
   EXPECT_EQ(parameterTitle("tau_on_s"), "time constant on / s");
+  EXPECT_EQ(gainUnit("um_per_m2"), "µm/m²");
+  EXPECT_EQ(gainUnit("um_per_m_lift"), "µm/m");
+  EXPECT_EQ(gainUnit("um/mm"), "µm/mm");
   EXPECT_EQ(signalTitle("feed_x_mm_min").name, "feed X");
   EXPECT_EQ(signalTitle("feed_x_mm_min").unit, "mm/min");
   EXPECT_EQ(signalTitle("T_column_front_degC").name, "column front");
@@ -42,7 +48,35 @@ TEST(PrintedText, ParametersAndSignalsAreWordsWithAUnit) {
   EXPECT_EQ(driversInWords("feed_x (lag 2400 s) + T_ambient_degC (lag 9000 s)"),
             "feed X (lag 40 min) + temperature of ambient (lag 2.5 h)");
   EXPECT_EQ(driversInWords("spindle_rpm^2*pos_z (lag 60 s)"), "spindle speed² × position Z (lag 60 s)");
+  EXPECT_EQ(driversInWords("spindle_rpm^1.5"), "spindle speed¹·⁵");
+  EXPECT_EQ(driversInWords("spindle_rpm^1"), "spindle speed");
+  EXPECT_EQ(driversInWords("column_side_difference (time constant 60 s on, 7200 s off)"),
+            "temperature difference left minus right of the column (time constant 60 s on, 2.0 h off)");
+  EXPECT_EQ(driversInWords("coolant*T_room_degC"), "coolant × temperature of room");
+  EXPECT_EQ(driversInWords("feed_override"), "feed override") << "a column of the user's is no axis";
   EXPECT_EQ(driversInWords("step at 1200 s"), "step at 20 min");
+  EXPECT_EQ(driversInWords("20 % too low in the simulation: 3000 s there, measured 3600 ± 200 s"),
+            "20 % too low in the simulation: 50 min there, measured 3600 ± 200 s")
+      << "value and uncertainty keep one unit";
+  EXPECT_EQ(driversInWords({{"feed_x", "feed_y"}, {"T_table_degC"}}), "feed X + feed Y or temperature of table");
+  const auto german = [](std::string_view text) {
+    return text == "feed %1" ? std::string("Vorschub %1") : text == "or" ? std::string("oder") : std::string(text);
+  };
+  EXPECT_EQ(driversInWords({{"feed_x^2"}, {"pos_y"}}, german), "Vorschub X² oder position Y");
+}
+
+TEST(PrintedText, FormulasHaveSymbols) {
+  EXPECT_EQ(formulaInSymbols("ey = -g q (z - z0)^2 / 2, EA = g q (z - z0), ez = EA ry"),
+            "EY = −g q (z − z₀)² / 2, EA = g q (z − z₀), EZ = EA ry");
+  EXPECT_EQ(formulaInSymbols("(ex, ey, ez) = g q n x (p - p0), n along the axis"),
+            "(EX, EY, EZ) = g q n × (p − p₀), n along the axis");
+  EXPECT_EQ(formulaInSymbols("ex = g (1 - exp(-t / tau))"), "EX = g (1 − exp(−t / τ))");
+  EXPECT_EQ(formulaInSymbols("EX = 0.5 * x^1.5 * (y - 2e-3)"), "EX = 0.5·x¹·⁵·(y − 2e−3)");
+  EXPECT_EQ(formulaInSymbols("ex = g q sin(2 pi x / pitch) + g' q"), "EX = g q sin(2 π x / pitch) + g′ q");
+  for (const Effect& effect : everyEffect()) {
+    const std::string text = formulaInSymbols(effect.formula);
+    EXPECT_EQ(text.find_first_of("^_*"), std::string::npos) << text;
+  }
 }
 
 TEST(PrintedText, MomentsAndProbabilities) {

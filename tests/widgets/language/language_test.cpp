@@ -6,10 +6,13 @@
 #include <QApplication>
 #include <QDoubleSpinBox>
 #include <QFile>
+#include <QImage>
 #include <QLineEdit>
 #include <QRegularExpression>
 #include <QSettings>
 #include <QTest>
+#include <QTextDocument>
+#include <QUrl>
 #include <QXmlStreamReader>
 #include <filesystem>
 #include <set>
@@ -24,6 +27,7 @@
 #include "widgets/common/core_formats.h"
 #include "widgets/common/core_sentence.h"
 #include "widgets/common/editor_table.h"
+#include "widgets/common/help_text.h"
 #include "widgets/common/languages.h"
 #include "widgets/common/preferences.h"
 #include "widgets/common/words.h"
@@ -359,6 +363,22 @@ TEST_F(LanguageTest, DistancesOfTheViewHaveTheComma) {
   EXPECT_TRUE(text.contains(QStringLiteral("250,5"))) << text.toStdString();
   EXPECT_TRUE(text.contains(QStringLiteral("4,2"))) << text.toStdString();
   EXPECT_FALSE(text.contains(QLatin1Char('.'))) << text.toStdString();
+}
+
+TEST_F(LanguageTest, DrawingsOfTheHelpAreInItToo) {
+  const auto drawing = [](const char* language) {
+    applyLanguage(QLatin1String(language));
+    HelpText help(QStringLiteral("Help"));
+    help.showHelp(QStringLiteral("model"));
+    return help.document()
+        ->resource(QTextDocument::ImageResource, QUrl(QStringLiteral("qrc:/help/model.svg")))
+        .value<QImage>();
+  };
+  const QImage english = drawing("en");
+  const QImage german = drawing("de");
+  ASSERT_FALSE(english.isNull());
+  ASSERT_FALSE(german.isNull());
+  EXPECT_NE(english, german) << "its caption";
 }
 
 TEST_F(LanguageTest, TitlesHaveUnitsAsPeopleWriteThem) {

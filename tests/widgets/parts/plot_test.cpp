@@ -3,8 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <QCoreApplication>
 #include <QFile>
 #include <QImage>
+#include <QMouseEvent>
+#include <QSignalSpy>
 #include <cmath>
 
 #include "core/base/csv.h"
@@ -85,6 +88,30 @@ TEST(Plot, ShowsSomethingAndEmptyStateSaysHow) {
   plot.setContent({ramp()});
   const QImage full = plot.grab().toImage();
   EXPECT_NE(empty, full);
+}
+
+TEST(Plot, TellsTheValueUnderTheCursorWithItsUncertainty) {
+  Plot plot;
+  plot.setAxes(QStringLiteral("Time / h"), QStringLiteral("EX / µm"));
+  Series series;
+  series.name = QStringLiteral("F1");
+  series.x = {0.0, 1.0, 2.0};
+  series.y = {0.0, 12.43, 20.0};
+  series.sigma = {0.3, 0.3, 0.3};
+  plot.setContent({series});
+  plot.resize(600, 400);
+  plot.show();
+  QCoreApplication::processEvents();
+  auto* canvas = plot.findChild<QCustomPlot*>();
+  ASSERT_NE(canvas, nullptr);
+  QSignalSpy hovered(&plot, &Plot::hovered);
+  const auto moveTo = [&](const QPointF& place) {
+    QMouseEvent move(QEvent::MouseMove, place, canvas->mapToGlobal(place), Qt::NoButton, Qt::NoButton, Qt::NoModifier);
+    QCoreApplication::sendEvent(canvas, &move);
+    return hovered.back()[0].toString().toStdString();
+  };
+  EXPECT_EQ(moveTo(plot.pixelOf(1.0, 12.43) + QPointF(3, -3)), "F1, Time 1 h: 12.4 ± 0.3 µm");
+  EXPECT_EQ(moveTo(plot.pixelOf(1.5, 2.0)).rfind("Time = 1.5 h,  EX = 2 µm", 0), 0U) << "between the values: the place";
 }
 
 TEST(Plot, ManyCurvesInAnyWindowAreDrawn) {

@@ -71,7 +71,7 @@ class TableHabitsTest : public ::testing::Test {
   std::unique_ptr<QTableView> table_;
 };
 
-// Six rows of 36 px in a table that has room for two and two thirds of them.
+// Six rows in a table that has room for two and two thirds of them.
 TEST_F(TableHabitsTest, ShowsWholeRowsOnly) {
   /// First and last line of pixels with anything but the ground.
   const auto seen = [this] {
@@ -88,13 +88,13 @@ TEST_F(TableHabitsTest, ShowsWholeRowsOnly) {
     }
     return lines;
   };
-  table_->setMinimumHeight(0);
-  table_->resize(500, table_->horizontalHeader()->height() + 36 * 2 + 24);
-  EXPECT_LT(seen().second, 36 * 2) << "the third has no room";
-  EXPECT_GT(seen().second, 36);
+  const int row_height = table_->rowHeight(0);
+  table_->resize(500, table_->horizontalHeader()->height() + row_height * 2 + 24);
+  EXPECT_LT(seen().second, 2 * row_height) << "the third has no room";
+  EXPECT_GT(seen().second, row_height);
   table_->scrollToBottom();
   EXPECT_GE(seen().first, 24) << "neither has the one above the last two";
-  EXPECT_GT(seen().second, 24 + 36);
+  EXPECT_GT(seen().second, 24 + row_height);
 }
 
 TEST_F(TableHabitsTest, AClickSortsNumbersAsNumbersAndAThirdOneGoesBack) {

@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Every page of every demo fits the window in every language: at 1440 x 900 with the help open, on a small screen of
-// 1280 x 800 and on a large one of 1920 x 1080 without it, nothing is pushed out sideways, no text is cut, whether of a
-// label, a tab, a cell or a field, no plot squeezed, no word of a file stands for one of the field, one button at most
-// is the primary one, and that which runs the step is in sight. What the tour shows beside the pages is looked at too.
+// Every page of every demo fits the window in every language: at 1440 x 900 and 1280 x 800 with the help open, on a
+// small screen of 1280 x 800 and on a large one of 1920 x 1080 without it, nothing is pushed out sideways, no text is
+// cut, whether of a label, a tab, a cell or a field, no plot squeezed, no table without rows, with half a row or with
+// columns out of sight, no word of a file stands for one of the field, one button at most is the primary one, and that
+// which runs the step is in sight. What the tour shows beside the pages is looked at too.
 #include <gtest/gtest.h>
 
 #include <QAction>
 #include <QComboBox>
 #include <QCoreApplication>
 #include <QHeaderView>
+#include <QImage>
 #include <QLabel>
 #include <QLineEdit>
 #include <QPushButton>
@@ -24,6 +26,7 @@
 #include <QTemporaryDir>
 #include <QTest>
 #include <QTextDocumentFragment>
+#include <QTextEdit>
 #include <QVBoxLayout>
 #include <set>
 #include <tuple>
@@ -33,9 +36,11 @@
 #include "widgets/common/parts.h"
 #include "widgets/common/wrap_layout.h"
 #include "widgets/plots/plot.h"
+#include "widgets/services/incoming_service.h"
 #include "widgets/shell/help_panel.h"
 #include "widgets/shell/tour.h"
 #include "widgets/shell/tour_details.h"
+#include "widgets/shell/welcome_page.h"
 #include "widgets/view3d/view3d.h"
 
 namespace spindrift::gui {
@@ -94,7 +99,8 @@ QStringList cutCells(const QTableView& table) {
       const int width = cell.width() - 2 * padding - std::max(0, picture);
       const bool fits =
           table.wordWrap()
-              ? metrics.boundingRect(QRect(0, 0, width, 10000), Qt::TextWordWrap, text).height() <= cell.height() + 1
+              ? metrics.boundingRect(QRect(0, 0, width, 10000), Qt::TextWordWrap, text).height() <= cell.height() + 1 &&
+                    metrics.boundingRect(QRect(0, 0, width, 10000), Qt::TextWordWrap, text).width() <= width + 1
               : metrics.horizontalAdvance(text) <= width + 1;
       if (!fits) cut << QStringLiteral("cell of %1: %2").arg(table.accessibleName(), text);
     }
@@ -117,6 +123,14 @@ QStringList cutTexts(const QWidget& root) {
       if (all > bar->width()) cut << QStringLiteral("tabs, of which the last is ") + bar->tabText(bar->count() - 1);
     }
     if (const auto* table = qobject_cast<QTableView*>(w)) cut << cutCells(*table);
+    if (const auto* text = qobject_cast<QTextEdit*>(w); text != nullptr && text->horizontalScrollBar()->maximum() > 0)
+      cut << QStringLiteral("text of %1: %2 px of %3")
+                 .arg(text->accessibleName())
+                 .arg(text->viewport()->width())
+                 .arg(text->document()->size().width());
+    if (const auto* card = qobject_cast<DemoCard*>(w);
+        card != nullptr && card->heightForWidth(card->width()) > card->height())
+      cut << QStringLiteral("card of ") + card->accessibleName();
     if (const auto* field = qobject_cast<QLineEdit*>(w); field != nullptr && field->text().isEmpty()) {
       const int margins = 2 * 10;  // of the style sheet
       if (field->fontMetrics().horizontalAdvance(field->placeholderText()) > field->width() - margins)
@@ -158,7 +172,8 @@ QStringList cutTexts(const QWidget& root) {
 QStringList rawWords(const QWidget& root) {
   static const QRegularExpression raw(QStringLiteral(
       "(?<![\\w.])((?<=/ |\\d )um|urad|degC|um/m|(alpha|beta|gamma)_\\w+|d[xyz]_mm|push_broom|ball_screw|"
-      "rotary_encoder|linear_scale|\\d(\\.\\d+)?e[-+]?\\d+)(?![\\w.])"));
+      "rotary_encoder|linear_scale|\\d(\\.\\d+)?e[-+]?\\d+)(?![\\w.])|"
+      "column_(side_)?difference|\\w+_rpm\\^|\\w\\^\\d|(um|urad)_per_|\\b(feed|pos)_[xyz]\\b(?!_)|instrument_on"));
   QStringList found;
   const auto look = [&found](const QString& text) {
     if (const auto match = raw.match(text); match.hasMatch()) found << QStringLiteral("raw: ") + text;
@@ -170,6 +185,8 @@ QStringList rawWords(const QWidget& root) {
     if (const auto* choice = qobject_cast<const QComboBox*>(w)) look(choice->currentText());
     if (const auto* field = qobject_cast<const QLineEdit*>(w); field != nullptr && field->isReadOnly())
       look(field->text());
+    if (const auto* text = qobject_cast<const QTextEdit*>(w); text != nullptr && text->isReadOnly())
+      for (const QString& line : text->toPlainText().split(QLatin1Char('\n'))) look(line);
     if (const auto* table = qobject_cast<const QTableView*>(w); table != nullptr && table->model() != nullptr) {
       const QAbstractItemModel& model = *table->model();
       for (int column = 0; column < model.columnCount(); ++column) {
@@ -207,6 +224,56 @@ QStringList squeezedViews(const QWidget& root) {
   return squeezed;
 }
 
+/// Whether anything is drawn in a part of a view.
+bool shows(const QWidget& viewport, const QRect& part) {
+  const QImage picture = const_cast<QWidget&>(viewport).grab(part).toImage();
+  for (int y = 0; y < picture.height(); ++y) {
+    for (int x = 1; x < picture.width(); ++x)
+      if (picture.pixel(x, y) != picture.pixel(0, y)) return true;
+  }
+  return false;
+}
+
+/// Lists and tables that show too few of their rows, half a row, or that scroll sideways. Beside the help they may show
+/// less.
+QStringList poorTables(const QWidget& root, bool beside_help) {
+  const int fewest_rows = beside_help ? 2 : 3;
+  constexpr int enough_px = 180;  // for sentences of several lines
+  QStringList poor;
+  for (const QTableView* table : root.findChildren<QTableView*>()) {
+    if (!table->isVisible() || table->model() == nullptr || table->model()->rowCount() == 0) continue;
+    const QRect seen = table->viewport()->rect();
+    int rows = 0;
+    int whole = 0;
+    for (int row = 0; row < table->model()->rowCount(); ++row) {
+      if (table->isRowHidden(row)) continue;
+      ++rows;
+      const QRect place(0, table->rowViewportPosition(row), seen.width(), table->rowHeight(row));
+      if (seen.contains(place)) {
+        ++whole;
+      } else if (seen.intersects(place) && place.height() <= seen.height() && shows(*table->viewport(), place & seen)) {
+        poor << QStringLiteral("%1 shows %2 of the %3 px of row %4")
+                    .arg(table->accessibleName())
+                    .arg((place & seen).height())
+                    .arg(place.height())
+                    .arg(row + 1);
+      }
+    }
+    if (whole < std::min(rows, fewest_rows) && seen.height() < enough_px)
+      poor << QStringLiteral("%1 shows %2 of %3 rows in %4 px")
+                  .arg(table->accessibleName())
+                  .arg(whole)
+                  .arg(rows)
+                  .arg(table->height());
+    if (table->horizontalHeader()->length() > seen.width() && !beside_help)
+      poor << QStringLiteral("%1 is %2 px wide, its columns need %3")
+                  .arg(table->accessibleName())
+                  .arg(seen.width())
+                  .arg(table->horizontalHeader()->length());
+  }
+  return poor;
+}
+
 /// Demo and language.
 class LayoutTest : public StoryTest, public ::testing::WithParamInterface<std::tuple<const char*, const char*>> {
  protected:
@@ -230,12 +297,11 @@ class LayoutTest : public StoryTest, public ::testing::WithParamInterface<std::t
     for (QWidget* w = page; w != nullptr && area == nullptr; w = w->parentWidget())
       area = qobject_cast<QScrollArea*>(w);
     ASSERT_NE(area, nullptr);
-    // Longer words beside the help: such a page may scroll sideways.
-    const bool may_scroll = window_->help()->isVisible() && currentLanguage() != QLatin1String("en");
+    // Longer words, or a small window, beside the help: such a page may scroll sideways.
+    const bool may_scroll =
+        window_->help()->isVisible() && (currentLanguage() != QLatin1String("en") || window_->width() < 1440);
     EXPECT_GE(page->height(), page->minimumSizeHint().height()) << what << ": squeezed";
-    for (const QString& squeezed : squeezedViews(*page)) {
-      if (told_.insert(squeezed).second) ADD_FAILURE() << what << ": " << squeezed.toStdString();
-    }
+    expectHeights(what, *window_, window_->help()->isVisible());
     EXPECT_TRUE(may_scroll || page->minimumSizeHint().width() <= area->viewport()->width())
         << what << ": " << page->minimumSizeHint().width() << " of " << area->viewport()->width() << whatIsWide(*page);
     const QPushButton* button = page->primaryButton();
@@ -255,17 +321,29 @@ class LayoutTest : public StoryTest, public ::testing::WithParamInterface<std::t
     }
   }
   void expectFitsEverywhere(const std::string& what) {
-    for (const QSize size : {QSize(1440, 900), QSize(1280, 800), QSize(1920, 1080)}) {
-      const bool help = size.width() == 1440;
+    for (const auto& [size, help] : {std::pair{QSize(1440, 900), true}, std::pair{QSize(1280, 800), true},
+                                     std::pair{QSize(1280, 800), false}, std::pair{QSize(1920, 1080), false}}) {
       window_->resize(size);
       setHelp(help);
       QTest::qWait(50);  // lines of sentences follow the width, pages follow their lines
-      (void)QTest::qWaitFor([this] { return squeezedViews(*window_->currentPage()).isEmpty(); }, 1000);
+      (void)QTest::qWaitFor(
+          [this] {
+            const Page* page = window_->currentPage();
+            return page->height() >= page->minimumSizeHint().height() && squeezedViews(*page).isEmpty();
+          },
+          1000);
       expectFits(what + " at " + std::to_string(size.width()) + (help ? " with the help" : " without help"));
     }
   }
-  /// Texts of what was opened, as `shown` has its size.
-  void expectWholeTexts(const std::string& what, const QWidget& shown) {
+  /// Plots, views and tables can be read.
+  void expectHeights(const std::string& what, const QWidget& shown, bool beside_help) {
+    for (const QString& poor : squeezedViews(shown) + poorTables(shown, beside_help)) {
+      if (told_.insert(poor).second) ADD_FAILURE() << what << ": " << poor.toStdString();
+    }
+  }
+  /// Texts of what was opened, and its heights, as `shown` has its size.
+  void expectWhole(const std::string& what, const QWidget& shown) {
+    expectHeights(what, shown, false);
     for (const QString& text : cutTexts(shown) + rawWords(shown)) {
       if (told_.insert(text).second) ADD_FAILURE() << what << ": " << text.toStdString();
     }
@@ -286,14 +364,21 @@ TEST_P(LayoutTest, NothingIsPushedOutSidewaysOrCut) {
     ASSERT_TRUE(waitForJobs(*window_, 60));
     const std::string what = demo.toStdString() + "/" + detail.name;
     if (shown != nullptr && shown->isWindow()) {
-      expectWholeTexts(what, *shown);
+      expectWhole(what, *shown);
     } else {
       setHelp(false);
       for (const QSize size : {QSize(1280, 800), QSize(1920, 1080)}) {
         window_->resize(size);
         QTest::qWait(50);
-        (void)QTest::qWaitFor([this] { return cutTexts(*window_).isEmpty(); }, 1000);
-        expectWholeTexts(what + " at " + std::to_string(size.width()), *window_);
+        (void)QTest::qWaitFor(
+            [this] {
+              const Page* page = window_->currentPage();
+              return (page == nullptr || page->height() >= page->minimumSizeHint().height()) &&
+                     cutTexts(*window_).isEmpty() && squeezedViews(*window_).isEmpty() &&
+                     poorTables(*window_, false).isEmpty();
+            },
+            1000);
+        expectWhole(what + " at " + std::to_string(size.width()), *window_);
       }
     }
     if (detail.leave) detail.leave(*window_);
@@ -305,6 +390,34 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Combine(::testing::Values("fiducials", "holes", "balls", "scans", "discrepancy", "own_pattern"),
                        ::testing::Values("en", "de")),
     [](const auto& test) { return std::string(std::get<0>(test.param)) + "_" + std::get<1>(test.param); });
+
+/// The first screen, and the windows and places that belong to no demo.
+class FirstScreenLayout : public LayoutTest {};
+
+TEST_P(FirstScreenLayout, AndTheWindowsBesideItFit) {
+  window_->resize(1280, 800);
+  QTest::qWait(50);
+  expectWhole("first screen", *window_);
+  for (const auto& [name, open] : tourWindows()) {
+    QWidget* shown = open(*window_);
+    wait();
+    expectWhole(name, shown != nullptr ? *shown : *window_);
+    if (shown != nullptr) shown->close();
+  }
+  window_->startDemo(QString::fromLatin1(std::get<0>(GetParam())), true);
+  wait();
+  ASSERT_NE(window_->session().campaign(), nullptr);
+  sessions_.push_back(window_->session().folder());
+  ASSERT_EQ(startArriving(*window_, QString::fromStdString((folder_ / "arriving").string())), QString());
+  wait();
+  expectWhole("captures that arrive", *window_);
+  IncomingService::of(window_->session()).stop();
+  window_->closeSession();
+}
+
+INSTANTIATE_TEST_SUITE_P(Languages, FirstScreenLayout,
+                         ::testing::Combine(::testing::Values("fiducials"), ::testing::Values("en", "de")),
+                         [](const auto& test) { return std::string(std::get<1>(test.param)); });
 
 class BordersTest : public StoryTest {};
 

@@ -156,12 +156,12 @@ DiscrepancyPage::DiscrepancyPage(PageContext page_context, QWidget* parent)
   line->addWidget(verdict_icon_, 0, Qt::AlignTop);
   auto* words = new QVBoxLayout;
   words->setSpacing(4);
-  verdict_ = makeLabel({}, "bigNumber");
-  verdict_->setWordWrap(true);
+  verdict_ = new WrappedLabel;
+  verdict_->setProperty("role", QStringLiteral("bigNumber"));
   verdict_->setTextInteractionFlags(Qt::TextSelectableByMouse);
   verdict_->setAccessibleName(tr("Verdict"));
-  verdict_note_ = makeLabel({}, "instruction");
-  verdict_note_->setWordWrap(true);
+  verdict_note_ = new WrappedLabel;
+  verdict_note_->setProperty("role", QStringLiteral("instruction"));
   words->addWidget(verdict_);
   words->addWidget(verdict_note_);
   line->addLayout(words, 1);

@@ -10,6 +10,7 @@
 
 #include "core/tasks/task_options.h"
 #include "core/workflows/discrepancy_story.h"
+#include "widgets/common/parts.h"
 #include "widgets/pages/page.h"
 
 class QLabel;
@@ -105,8 +106,8 @@ class DiscrepancyPage : public Page {
   EmptyState* nothing_yet_;  ///< a tab, where there is something to search
   Card* banner_;
   IconLabel* verdict_icon_;
-  QLabel* verdict_;
-  QLabel* verdict_note_;
+  WrappedLabel* verdict_;
+  WrappedLabel* verdict_note_;
   QTabWidget* tabs_;
   WherePanel* where_;
   WhatPanel* what_ = nullptr;  ///< this and the others: see makePanel

@@ -17,6 +17,7 @@
 #include "core/workflows/capture_check.h"
 #include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
+#include "widgets/common/wrap_layout.h"
 #include "widgets/image_view/decode_marks.h"
 #include "widgets/image_view/image_view.h"
 #include "widgets/models/cells.h"
@@ -70,6 +71,7 @@ FiducialCapturePage::FiducialCapturePage(PageContext page_context, QWidget* pare
   auto* plan_table = makeTable(plan_, tr("Plan"), tr("The plan appears with the first capture."));
   plan_table->setSelectionMode(QAbstractItemView::NoSelection);
   list->body()->addWidget(plan_table, 2);
+  list->setMinimumWidth(500);  // all columns of the plan
 
   auto* picture = new Card(tr("Image"));
   badge_ = new Badge;
@@ -80,7 +82,7 @@ FiducialCapturePage::FiducialCapturePage(PageContext page_context, QWidget* pare
   picture->body()->addWidget(image_, 1);
   verdict_ = new Callout;
   picture->body()->addWidget(verdict_);
-  auto* buttons = new QHBoxLayout;
+  auto* buttons = new WrapLayout;
   exclude_ = makeButton(tr("Exclude …"), "exclude");
   exclude_->setToolTip(
       tr("Leave what is chosen in the list out of the evaluation; it stays on the disk and can be brought back"));
@@ -89,7 +91,6 @@ FiducialCapturePage::FiducialCapturePage(PageContext page_context, QWidget* pare
   overlay_->setChecked(true);
   auto* fit = makeButton(tr("Whole image"), "fit-window");
   buttons->addWidget(exclude_);
-  buttons->addStretch();
   buttons->addWidget(overlay_);
   buttons->addWidget(fit);
   picture->body()->addLayout(buttons);
@@ -327,7 +328,7 @@ void FiducialCapturePage::fillPlan() {
         cell.text = tr("as before");
         cell.tip = tr("Directions of the axes are measured once, in the reference state.");
       } else {
-        cell.text = tr("%1 of %2").arg(have).arg(needed(name));
+        cell.text = QStringLiteral("%1/%2").arg(have).arg(needed(name));
         cell.tone = have >= needed(name) ? Tone::Good : Tone::Attention;
         cell.icon = have >= needed(name) ? "check" : "alert";
       }

@@ -60,7 +60,6 @@ NineParameterPage::NineParameterPage(PageContext page_context, QWidget* parent)
   addAction(fit_button_);
 
   auto* left = new Card;
-  left->setMinimumWidth(440);
   auto* choices = new QHBoxLayout;
   choices->addWidget(new QLabel(tr("State")));
   state_ = new QComboBox;
@@ -134,7 +133,7 @@ NineParameterPage::NineParameterPage(PageContext page_context, QWidget* parent)
                       tr("Fit the model: it is drawn over the table with the measured points on top."));
   view_->setMachineVisible(false);
   right->body()->addWidget(view_, 1);
-  content()->addWidget(makeSplitter(left, right, 6, 5), 1);
+  content()->addWidget(makeSplitter(left, right, 13, 10), 1);
   showHints(view_);
 
   connect(fit_button_, &QPushButton::clicked, this, [this] { runTask("fit"); });
@@ -351,11 +350,11 @@ void NineParameterPage::showFit() {
       in_sigma.tone = Tone::Attention;
       in_sigma.icon = "alert";
     }
-    Cell residual{decimalText(r.residual_um, 'f', 2) + QStringLiteral(" µm")};
+    Cell residual{decimalText(r.residual_um, 'f', 2)};
     residual.right = true;
     row.cells = {name,
-                 {QString::fromStdString(std::string(toString(r.component)))},
-                 parameterCell(r.value_um, r.sigma_um, "um"),
+                 {QString::fromStdString(std::string(toString(r.component))) + QStringLiteral(" / µm")},
+                 parameterCell(r.value_um, r.sigma_um, ""),
                  residual,
                  in_sigma,
                  {r.used ? (r.weight < 0.99 ? tr("weight %1").arg(decimalText(r.weight, 'f', 2)) : tr("fit"))

@@ -128,12 +128,10 @@ MachinePage::MachinePage(PageContext page_context, QWidget* parent)
                       tr("Pitch\n/ mm"), tr("Fixed bearing\n/ mm"), tr("Scale")},
                      tr("Linear axes"));
   for (const int column : {4, 7}) axes_->setItemDelegateForColumn(column, new KindWords(axes_));
-  axes_->setMinimumHeight(176);  // three axes under a header of two lines
   card->body()->addWidget(axes_, 2);
   card->body()->addWidget(makeLabel(tr("Measuring points"), "sectionTitle"));
   points_ = makeEditor({tr("Point"), tr("Kind"), tr("x / mm"), tr("y / mm"), tr("z / mm")}, tr("Measuring points"));
   points_->setItemDelegateForColumn(1, new KindWords(points_));
-  points_->setMinimumHeight(150);
   card->body()->addWidget(points_, 3);
   auto* point_buttons = new WrapLayout;
   auto* add = makeButton(tr("Add point"), "plus");
@@ -159,6 +157,7 @@ MachinePage::MachinePage(PageContext page_context, QWidget* parent)
 
   auto* picture = new Card(tr("How it is built"));
   view_ = new View3D;
+  view_->setMinimumWidth(200);  // beside the help
   view_->setEmptyText(tr("The machine will appear here"), tr("Give its chain and the travel of its axes."));
   picture->body()->addWidget(view_, 1);
   auto* tabs = makeTabs();

@@ -107,7 +107,7 @@ VerifyPage::VerifyPage(PageContext page_context, QWidget* parent)
   stack_->addWidget(plot_);
   stack_->addWidget(maps_);
   right->body()->addWidget(stack_, 1);
-  content()->addWidget(makeSplitter(left, right, 8, 5), 1);
+  content()->addWidget(makeSplitter(left, right, 9, 5), 1);
   showHints(plot_);
   connect(compare_, &QPushButton::clicked, this, [this] { runAll(); });
   connect(component_, &QComboBox::activated, this, [this](int) {
@@ -282,12 +282,12 @@ void VerifyPage::showResult() {
     Row row;
     row.id = name;
     const auto cell = [&](double value, double sigma, const QString& tip = {}) {
-      Cell out{quantityText(value, sigma, unit)};
+      Cell out{quantityText(value, sigma, {})};
       out.right = true;
       out.tip = tip;
       return out;
     };
-    Cell named = nameCell(name);
+    Cell named = nameCell(QStringLiteral("%1 / %2").arg(name, unit));
     named.tip = tr("%n values compared", nullptr, static_cast<int>(c.values));
     row.cells = {named,
                  cell(c.before.rms, c.before.rms_sigma),

@@ -79,9 +79,8 @@ ArrivingPanel::ArrivingPanel(PageContext page_context, Instrument instrument, QW
   table_ = makeTable(rows_, tr("Files that arrived"), tr("Files appear here as they arrive in the watched folder."));
   table_->setIconSize(thumbnail_size);
   table_->verticalHeader()->setMinimumSectionSize(56);
-  // Name and finding share what is left; both in as many lines as they need.
+  // In as many lines as they need.
   stretchColumn(table_, 3);
-  table_->horizontalHeader()->setSectionResizeMode(0, QHeaderView::Stretch);
   arrived_->body()->addWidget(table_, 1);
   touch_card_ = new Card(tr("Touches as they come in"));
   touches_ = new LiveTouchPanel(context_.session);

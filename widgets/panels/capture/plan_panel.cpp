@@ -2,7 +2,6 @@
 #include "widgets/panels/capture/plan_panel.h"
 
 #include <QDoubleSpinBox>
-#include <QHBoxLayout>
 #include <QHeaderView>
 #include <QLabel>
 #include <QSpinBox>
@@ -13,6 +12,7 @@
 #include "widgets/commands/commands.h"
 #include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
+#include "widgets/common/wrap_layout.h"
 #include "widgets/models/cells.h"
 #include "widgets/models/rows_model.h"
 #include "widgets/panels/common/effect_titles.h"
@@ -45,7 +45,7 @@ PlanPanel::PlanPanel(PageContext page_context, Instrument instrument, QWidget* p
   table_ = makeTable(rows_, tr("Measurement plan"), tr("Make a plan: it says what to measure next and when."));
   stretchColumn(table_, 3);
   column->addWidget(table_, 1);
-  auto* line = new QHBoxLayout;
+  auto* line = new WrapLayout;
   states_ = new QSpinBox;
   states_->setRange(1, 200);
   states_->setValue(5);
@@ -66,7 +66,6 @@ PlanPanel::PlanPanel(PageContext page_context, Instrument instrument, QWidget* p
     line->addWidget(w);
   }
   line->addWidget(make_);
-  line->addStretch();
   line->addWidget(count_);
   column->addLayout(line);
   second_.setInterval(1000);

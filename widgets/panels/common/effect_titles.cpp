@@ -13,8 +13,8 @@
 
 #include "core/base/text.h"
 #include "core/discrepancy/effect_titles.h"
+#include "core/machine/driver_words.h"
 #include "core/reporting/discrepancy_report.h"
-#include "core/reporting/report_wording.h"
 #include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
 #include "widgets/common/words.h"
@@ -27,6 +27,10 @@ namespace {
 
 QString coreText(const char* text) {
   return QCoreApplication::translate("core", text);
+}
+
+std::string translated(std::string_view english) {
+  return coreText(std::string(english).c_str()).toStdString();
 }
 
 /// Titles of the effects of the user's, of the campaign at hand.
@@ -108,6 +112,24 @@ QString titledSentence(const std::string& sentence) {
   return out + text.mid(done);
 }
 
+QString driverWords(const std::string& drivers) {
+  QStringList parts;
+  // Each input is a sentence of its own with the names of the file in it.
+  for (const QString& part : QString::fromStdString(drivers).split(QStringLiteral(" + "), Qt::SkipEmptyParts)) {
+    const std::string words = driversInWords(coreSentence(part).toStdString(), translated);
+    parts << shownNumbers(QString::fromStdString(words));
+  }
+  return parts.join(QStringLiteral(" + "));
+}
+
+QString driverWords(const std::vector<std::vector<std::string>>& alternatives) {
+  return QString::fromStdString(driversInWords(alternatives, translated));
+}
+
+QString formulaText(const std::string& formula) {
+  return QString::fromStdString(formulaInSymbols(coreSentence(formula).toStdString()));
+}
+
 QString sizeText(double value, const QString& unit) {
   if (!std::isfinite(value)) return QStringLiteral("–");
   const double magnitude = std::abs(value);
@@ -177,11 +199,7 @@ QString pointsText(const std::vector<std::string>& points, std::size_t all) {
 }
 
 QString gainUnitText(const std::string& unit) {
-  static const QRegularExpression of_component(QStringLiteral("_([xyz]|cos|sin|lift|ram)$"));
-  QString text = QString::fromStdString(unit);
-  text.remove(of_component).replace(QStringLiteral("_per_"), QStringLiteral("/"));
-  text.replace(QStringLiteral("/m2"), QStringLiteral("/m²"));
-  return unitText(text.toStdString());
+  return QString::fromStdString(gainUnit(unit));
 }
 
 QString componentName(Component component) {

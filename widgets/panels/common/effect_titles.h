@@ -28,6 +28,13 @@ void knowOwnTitles(const nlohmann::json& document);
 /// A sentence of the search with every id of the catalogue by its title.
 [[nodiscard]] QString titledSentence(const std::string& sentence);
 
+/// What drives an effect, in words: "feed_x^2 (time constant 2400 s)" -> "feed X² (time constant 40 min)".
+[[nodiscard]] QString driverWords(const std::string& drivers);
+/// The alternatives that may drive it: "spindle speed or temperature of bearing".
+[[nodiscard]] QString driverWords(const std::vector<std::vector<std::string>>& alternatives);
+/// A formula in symbols: "ez = g q (z - z0)" -> "EZ = g q (z − z₀)".
+[[nodiscard]] QString formulaText(const std::string& formula);
+
 /// A size with two or three digits and its unit as people write it (um as µm); "–" if it is not finite.
 [[nodiscard]] QString sizeText(double value, const QString& unit);
 /// "3×10⁻⁵", "< 10⁻¹²", "0.004".

@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "core/base/error.h"
-#include "core/reporting/report_wording.h"
 #include "widgets/common/words.h"
 #include "widgets/panels/common/effect_titles.h"
 #include "widgets/theme/fonts.h"

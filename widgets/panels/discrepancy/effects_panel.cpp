@@ -24,7 +24,7 @@
 #include "core/base/json_reader.h"
 #include "core/discrepancy/effect_listing.h"
 #include "core/discrepancy/effect_titles.h"
-#include "core/reporting/report_wording.h"
+#include "core/machine/driver_words.h"
 #include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
 #include "widgets/common/words.h"
@@ -89,14 +89,6 @@ QString titleOfEffect(const Effect& effect) {
   return sentenceStart(effect.own ? QString::fromStdString(titleOf(effect)) : effectTitle(effect.id));
 }
 
-QString dynamicsInWords(const std::string& dynamics) {
-  if (dynamics == "lag") return EffectsPanel::tr("first-order time constant");
-  if (dynamics == "asymmetric_lag") return EffectsPanel::tr("first-order time constant, another one while it cools");
-  if (dynamics == "step") return EffectsPanel::tr("step at an unknown time");
-  if (dynamics == "pulse") return EffectsPanel::tr("pulse at an unknown time");
-  return EffectsPanel::tr("none: follows at once");
-}
-
 /// Drivers as they are written in effects.json, whether the log has them or not.
 std::vector<std::vector<std::string>> writtenDrivers(const Effect& effect, const OwnEffects* own) {
   const OwnEffect* written = effect.own && own != nullptr ? own->find(effect.id) : nullptr;
@@ -108,16 +100,6 @@ std::vector<std::vector<std::string>> writtenDrivers(const Effect& effect, const
     out.push_back(std::move(inputs));
   }
   return out;
-}
-
-QString driversText(const std::vector<std::vector<std::string>>& drivers) {
-  QStringList out;
-  for (const std::vector<std::string>& inputs : drivers) {
-    QStringList together;
-    for (const std::string& input : inputs) together << QString::fromStdString(input);
-    out << together.join(QStringLiteral(" + "));
-  }
-  return out.join(QStringLiteral(", "));
 }
 
 /// What the search makes of an effect.
@@ -144,7 +126,7 @@ QString detailsOf(const Effect& effect, const EffectListing& listing, const QStr
   html += row(EffectsPanel::tr("Physics"), coreSentence(effect.physics).toHtmlEscaped());
   html += row(EffectsPanel::tr("In the search"), state.toHtmlEscaped());
   html += row(EffectsPanel::tr("Id"), QString::fromStdString(effect.id).toHtmlEscaped());
-  html += row(EffectsPanel::tr("Formula"), QString::fromStdString(effect.formula).toHtmlEscaped());
+  html += row(EffectsPanel::tr("Formula"), formulaText(effect.formula).toHtmlEscaped());
   QStringList gains;
   for (const ShapeColumn& column : effect.shape) gains << gainUnitText(column.gain_unit);
   gains.removeDuplicates();
@@ -152,14 +134,14 @@ QString detailsOf(const Effect& effect, const EffectListing& listing, const QStr
                        : effect.sign < 0 ? EffectsPanel::tr("; negative for more of the driver")
                                          : QString();
   html += row(EffectsPanel::tr("Unit of gain"), (gains.join(QStringLiteral(", ")) + sign).toHtmlEscaped());
-  const QString drivers = driversText(writtenDrivers(effect, own));
+  const QString drivers = driverWords(writtenDrivers(effect, own));
   html += row(EffectsPanel::tr("Driven by"),
               drivers.isEmpty() ? (effect.variants.empty() && written == nullptr
                                        ? EffectsPanel::tr("nothing that this log holds: it cannot be tried")
                                        : EffectsPanel::tr("nothing that is logged"))
                                 : drivers.toHtmlEscaped());
   QString dynamics =
-      dynamicsInWords(written != nullptr ? std::string(toString(written->dynamics)) : dynamicsOf(effect));
+      coreSentence(dynamicsInWords(written != nullptr ? std::string(toString(written->dynamics)) : dynamicsOf(effect)));
   if (effect.tau_s) {
     dynamics += EffectsPanel::tr(", time constant %1 s to %2 s").arg((*effect.tau_s)[0]).arg((*effect.tau_s)[1]);
   }
@@ -380,12 +362,13 @@ void EffectsPanel::fillTree() {
     item->setSizeHint(0, QSize(0, row_height));
     item->setToolTip(0, QStringLiteral("%1 (%2)").arg(item->text(0), QString::fromStdString(effect.id)));
     item->setData(0, id_role, QString::fromStdString(effect.id));
-    QStringList words{item->text(0),
-                      family,
-                      QString::fromStdString(effect.id),
-                      coreSentence(effect.physics),
-                      QString::fromStdString(effect.formula),
-                      driversText(writtenDrivers(effect, listing_.own.get()))};
+    QStringList words{item->text(0), family, QString::fromStdString(effect.id), coreSentence(effect.physics),
+                      formulaText(effect.formula)};
+    // Found by the words that are shown, and by those of files.
+    const std::vector<std::vector<std::string>> drivers = writtenDrivers(effect, listing_.own.get());
+    words << QString::fromStdString(effect.formula) << driverWords(drivers);
+    for (const std::vector<std::string>& inputs : drivers)
+      for (const std::string& input : inputs) words << QString::fromStdString(input);
     item->setData(0, words_role, words.join(QLatin1Char(' ')));
   }
   // The user's own first, the families by their names.

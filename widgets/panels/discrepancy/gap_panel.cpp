@@ -11,7 +11,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/reporting/report_wording.h"
+#include "core/machine/driver_words.h"
 #include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
 #include "widgets/panels/common/effect_titles.h"

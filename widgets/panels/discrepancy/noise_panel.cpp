@@ -14,7 +14,7 @@
 #include <cmath>
 #include <map>
 
-#include "core/reporting/report_wording.h"
+#include "core/machine/driver_words.h"
 #include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
 #include "widgets/models/cells.h"
@@ -54,7 +54,6 @@ NoisePanel::NoisePanel(QWidget* parent) : QWidget(parent) {
   auto* left = new Card(tr("Noise of a reading"));
   noise_ = new RowsModel({tr("What"), tr("Noise scale"), tr("Common shift"), tr("Correlated")}, this);
   noise_table_ = makeTable(noise_, tr("Noise of every component"), tr("The noise found appears after the search."));
-  noise_table_->setMinimumHeight(148);
   left->body()->addWidget(noise_table_, 1);
   facts_ = makeLabel({}, "instruction");
   facts_->setWordWrap(true);

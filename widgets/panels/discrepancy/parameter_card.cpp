@@ -6,7 +6,6 @@
 #include <QVBoxLayout>
 #include <algorithm>
 
-#include "core/reporting/report_wording.h"
 #include "core/workflows/simulation_story.h"
 #include "widgets/common/core_sentence.h"
 #include "widgets/common/words.h"

@@ -22,8 +22,7 @@
 namespace spindrift::gui {
 namespace {
 
-constexpr int least_table_height = 108;  ///< headers and two rows
-constexpr std::size_t most_lines = 12;   ///< of all points together
+constexpr std::size_t most_lines = 12;  ///< of all points together
 
 }  // namespace
 
@@ -31,20 +30,18 @@ RemainderPanel::RemainderPanel(QWidget* parent) : QWidget(parent) {
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(0, 8, 0, 0);
   auto* left = new Card;
-  sentence_ = makeLabel({}, "instruction");
-  sentence_->setWordWrap(true);
+  sentence_ = new WrappedLabel;
+  sentence_->setProperty("role", QStringLiteral("instruction"));
   left->body()->addWidget(sentence_);
   components_ = new RowsModel({tr("rms"), tr("Residual"), tr("Effects"), tr("Noise"), tr("Remainder")}, this);
   component_table_ =
       makeTable(components_, tr("Remainder of every component"), tr("Components appear after the search."));
-  component_table_->setMinimumHeight(least_table_height);
   stretchColumn(component_table_, 0);
   left->body()->addWidget(component_table_, 4);
   points_title_ = makeLabel({}, "sectionTitle");
   left->body()->addWidget(points_title_);
   points_ = new RowsModel({tr("Point"), tr("rms"), tr("Largest"), tr("When")}, this);
   point_table_ = makeTable(points_, tr("Remainder at every point"), tr("Nothing remains in this component."));
-  point_table_->setMinimumHeight(least_table_height);
   left->body()->addWidget(point_table_, 5);
 
   plot_card_ = new Card;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/workflows/discrepancy_story.h"
+#include "widgets/common/parts.h"
 #include "widgets/export/exportable.h"
 
 class QLabel;
@@ -51,7 +52,7 @@ class RemainderPanel : public QWidget {
   RowsModel* points_;
   QTableView* component_table_;
   QTableView* point_table_;
-  QLabel* sentence_;
+  WrappedLabel* sentence_;
   QLabel* points_title_;
   QLabel* legend_;
   Card* plot_card_;

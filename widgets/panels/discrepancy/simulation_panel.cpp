@@ -84,8 +84,6 @@ SimulationPanel::SimulationPanel(PageContext context, QWidget* parent) : QWidget
   figure_table_ = makeTable(figures_, tr("Figures before and after"));
   stretchColumn(figure_table_, 0);
   figure_table_->setVerticalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-  figure_table_->verticalHeader()->setDefaultSectionSize(28);
-  figure_table_->setMinimumHeight(0);
   found_card_->body()->addWidget(figure_table_);
   found_card_->body()->addWidget(scroll, 1);
   stack_->addWidget(makeSplitter(parameters_, found_card_, 3, 2));
@@ -372,7 +370,7 @@ void SimulationPanel::showFound() {
   }
   QString html;
   for (const FoundEffect& e : story_->effects) {
-    QString words = sentenceStart(titledSentence(e.drivers));
+    QString words = sentenceStart(driverWords(e.drivers));
     if (!words.isEmpty()) words += QLatin1Char('.');
     if (std::isfinite(e.confidence))
       words += QLatin1Char(' ') + tr("Confidence %1.").arg(decimalText(e.confidence, 'f', 2));
@@ -426,8 +424,6 @@ void SimulationPanel::showFigures() {
     line(QStringLiteral("heldout"), tr("rms, held out"), done->heldout_rms_before_um, done->heldout_rms_after_um,
          done->heldout_rms_fitted_term_um, done->noise_um);
     line(QStringLiteral("p2p"), tr("Peak to peak"), done->p2p_before_um, done->p2p_after_um, none, none);
-    const int header = figure_table_->horizontalHeader()->sizeHint().height();
-    figure_table_->setFixedHeight(header + 3 * figure_table_->verticalHeader()->defaultSectionSize() + 4);
   }
   figures_->setRows(std::move(rows));
   found_card_->setTitle(there ? tr("Before and after") : tr("What was found"));

@@ -14,7 +14,7 @@
 #include <optional>
 
 #include "core/base/text.h"
-#include "core/reporting/report_wording.h"
+#include "core/machine/driver_words.h"
 #include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
 #include "widgets/common/words.h"
@@ -256,7 +256,7 @@ void WhatPanel::showEffect() {
                                       "or measure what the last tab proposes.")
                                        .arg(effectTitles(all, tr("or"))));
   }
-  QString drivers = tr("Driven by %1.").arg(coreSentence(driversInWords(e->drivers)));
+  QString drivers = tr("Driven by %1.").arg(driverWords(e->drivers));
   if (!e->containers.empty()) {
     drivers += QLatin1Char(' ') + tr("Also part of %1.").arg(effectTitles(e->containers, tr("and")));
   }

@@ -57,7 +57,7 @@ ArtefactEditor::ArtefactEditor(PageContext page_context, QWidget* parent)
   auto* head = new WrapLayout;
   choice_ = new QComboBox;
   choice_->setAccessibleName(tr("Artefact"));
-  choice_->setMinimumWidth(140);
+  choice_->setMinimumWidth(108);
   auto* add_bar = makeButton(tr("Hole bar"), "plus");
   auto* add_balls = makeButton(tr("Balls"), "plus");
   remove_ = makeButton(tr("Remove"), "trash");
@@ -91,7 +91,7 @@ ArtefactEditor::ArtefactEditor(PageContext page_context, QWidget* parent)
   buttons->addWidget(discard_);
   buttons->addWidget(apply_);
   left->body()->addLayout(buttons);
-  column->addWidget(makeSplitter(left, right, 7, 5), 1);
+  column->addWidget(makeSplitter(left, right, 6, 5), 1);
 
   connect(choice_, &QComboBox::activated, this, &ArtefactEditor::showArtefact);
   connect(add_bar, &QPushButton::clicked, this, [this] { addArtefact("hole_bar"); });

@@ -111,7 +111,7 @@ void ArtefactFields::addField(QGridLayout* form, int row, int column, const QStr
   for (int k = 0; k < parts; ++k) {
     auto* edit = new QLineEdit;
     edit->setAccessibleName(parts > 1 ? QStringLiteral("%1, %2").arg(title, QString(QLatin1Char("xyz"[k]))) : title);
-    edit->setMinimumWidth(parts > 1 ? 52 : 64);
+    edit->setMinimumWidth(parts > 1 ? 50 : 62);
     edit->setMinimumHeight(sizes::control_height);
     edit->setToolTip(tip);
     connect(edit, &QLineEdit::editingFinished, this, [this, edit] {

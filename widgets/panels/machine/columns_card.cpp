@@ -45,7 +45,6 @@ ColumnsCard::ColumnsCard(Edited edited, QWidget* parent)
   // What changes stands first: the rest may be scrolled out of sight.
   table_ = makeEditor({tr("Column"), tr("Now"), tr("Age"), tr("Quality"), tr("From"), tr("Unit there"), tr("Role")},
                       tr("Columns of the log"));
-  table_->setMinimumHeight(120);
   table_->verticalHeader()->setDefaultSectionSize(44);  // boxes stand in the rows
   table_->setSelectionBehavior(QAbstractItemView::SelectRows);
   body()->addWidget(table_, 1);

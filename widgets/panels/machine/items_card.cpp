@@ -33,7 +33,6 @@ ItemsCard::ItemsCard(QWidget* parent) : Card(tr("What is there"), parent) {
   rows_ = new RowsModel({tr("Data item"), tr("Now"), tr("Unit"), tr("What"), tr("Where")}, this);
   auto* table = makeTable(rows_, tr("Data items of the source"),
                           tr("Data items of the source appear here; tick those that are to be recorded."));
-  table->setMinimumHeight(100);
   body()->addWidget(table, 1);
   connect(filter_, &QLineEdit::textChanged, this, &ItemsCard::fill);
   connect(rows_, &RowsModel::checkedChanged, this, [this](const QString& id, int, bool on) {

@@ -47,7 +47,6 @@ SourcesCard::SourcesCard(QWidget* parent) : Card(tr("Sources"), parent) {
   addToTitle(remove_);
   rows_ = new RowsModel({tr("Source"), tr("State"), tr("Address")}, this);
   table_ = makeTable(rows_, tr("Sources"), tr("Enter an address above. Nothing else is contacted."));
-  table_->setMinimumHeight(84);
   body()->addWidget(table_, 1);
   connect(options_, &QPushButton::clicked, this, &SourcesCard::optionsWanted);
   connect(remove_, &QPushButton::clicked, this, &SourcesCard::removeWanted);
