@@ -18778,10 +18778,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Residuum</translation>
     </message>
     <message>
-        <source>What is used</source>
-        <translation>Was verwendet wird</translation>
-    </message>
-    <message>
         <source>Colours</source>
         <translation>Farben</translation>
     </message>
@@ -18998,6 +18994,10 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>Leave what is chosen in the list out of the evaluation; it stays on the disk and can be brought back</source>
         <translation>Lässt das in der Liste Gewählte bei der Auswertung aus; es bleibt auf der Platte und kann zurückgeholt werden</translation>
+    </message>
+    <message>
+        <source>Used</source>
+        <translation type="unfinished">Verwendet</translation>
     </message>
 </context>
 <context>

@@ -51,7 +51,7 @@ ScanCapturePage::ScanCapturePage(PageContext page_context, QWidget* parent)
   list->body()->addLayout(buttons);
 
   auto* right = new Card;
-  colouring_ = new Segments({tr("Height"), tr("Cold and warm"), tr("Change"), tr("Residual"), tr("What is used")},
+  colouring_ = new Segments({tr("Height"), tr("Cold and warm"), tr("Change"), tr("Residual"), tr("Used")},
                             tr("Colours"));
   colouring_->button(2)->setToolTip(tr("Height over the cold scan as it was measured"));
   colouring_->button(3)->setToolTip(tr("Height over the cold scan after registration"));
