@@ -18997,7 +18997,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>Used</source>
-        <translation type="unfinished">Verwendet</translation>
+        <translation>Verwendet</translation>
     </message>
 </context>
 <context>
