@@ -69,18 +69,20 @@ bool fitsFarBetterElsewhere(const ResidualProblem& problem, const std::vector<Ef
   return now - best > beyond_doubt;
 }
 
-std::optional<double> farLogClock(const std::function<double(double)>& evidence_at) {
+std::optional<ClockOffset> farLogClock(const std::function<double(double)>& evidence_at) {
   double best = evidence_at(0.0);
   double best_s = 0.0;
   const auto look = [&](double by_s) {
     const double evidence = evidence_at(by_s);
-    if (!(evidence > best)) return;
-    best = evidence;
-    best_s = by_s;
+    if (evidence > best) {
+      best = evidence;
+      best_s = by_s;
+    }
+    return evidence;
   };
+  std::map<double, double> coarse;
   for (int k = 1; k <= far_clock_steps; ++k) {
-    look(k * far_clock_step_s);
-    look(-k * far_clock_step_s);
+    for (const double by_s : {k * far_clock_step_s, -k * far_clock_step_s}) coarse[by_s] = look(by_s);
   }
   if (best_s == 0.0) return std::nullopt;
   for (double step_s = 0.5 * far_clock_step_s; step_s >= far_clock_resolution_s; step_s *= 0.5) {
@@ -88,7 +90,15 @@ std::optional<double> farLogClock(const std::function<double(double)>& evidence_
     look(about_s - step_s);
     look(about_s + step_s);
   }
-  return best_s;
+  double weight = 0.0;
+  double square = 0.0;
+  for (const auto& [by_s, evidence] : coarse) {
+    const double w = std::exp(0.5 * (evidence - best));
+    weight += w;
+    square += w * std::pow(by_s - best_s, 2);
+  }
+  const double spread = weight > 0.0 ? std::sqrt(square / weight) : 0.0;
+  return ClockOffset{best_s, std::hypot(far_clock_resolution_s, spread)};
 }
 
 }  // namespace spindrift

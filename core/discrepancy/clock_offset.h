@@ -36,7 +36,7 @@ constexpr double far_clocks = 2.0 * far_clock_steps;
 
 /// The offset, beyond the present one, at which most is explained, to within some minutes: what follows the estimate
 /// above can find. `evidence_at`: of all effects, with the clock moved by so many seconds. None: the present one is
-/// best.
-[[nodiscard]] std::optional<double> farLogClock(const std::function<double(double)>& evidence_at);
+/// best. Uncertainty: the step, and the spread of the offsets that explain as much.
+[[nodiscard]] std::optional<ClockOffset> farLogClock(const std::function<double(double)>& evidence_at);
 
 }  // namespace spindrift

@@ -570,6 +570,7 @@ std::string sentenceOf(const DiscrepancyResult& result, const DiscrepancyOptions
 /// The answer with the clock of the log where it is taken to be.
 struct Attempt {
   double log_clock_s = 0.0;  ///< clock of the log minus clock of the observations, before it is estimated
+  double log_clock_uncertainty_s = 0.0;
   std::vector<std::string> warnings;
   ComparableRows rows;
   std::unique_ptr<ResidualProblem> problem;
@@ -583,6 +584,7 @@ Attempt answered(const DiscrepancyInput& input, const DiscrepancyOptions& option
                  double log_clock_s, JobContext& job) {
   Attempt out;
   out.log_clock_s = log_clock_s;
+  out.log_clock_uncertainty_s = input.log_clock_uncertainty_s;
   out.rows = comparableRows(input, log_clock_s, out.warnings);
   out.warnings.insert(out.warnings.end(), input.notes.begin(), input.notes.end());
   checkUnits(input, out.rows.fit);
@@ -626,16 +628,20 @@ std::optional<Attempt> answeredFarOff(const DiscrepancyInput& input, const Attem
   // What goes with the log may have been taken for noise that is common to a state or follows itself in time.
   ResidualProblem problem = *near.problem;
   problem.setNoise(ownNoiseOf(problem.noise));
+  // The clock is found by what is strongest.
+  DiscrepancyOptions strongest = options;
+  strongest.max_effects = 1;
   const auto evidenceAt = [&](double by_s) {
     DriverTable drivers = *analysis.drivers;
     drivers.shiftClock(by_s);
     const EffectSearch search(problem, drivers, analysis.catalogue);
     const CandidateLibrary library(search, problem, job);
-    return PosteriorSearch(search, problem, library, options, priors, analysis.simulation_error).run(job).evidence;
+    return PosteriorSearch(search, problem, library, strongest, priors, analysis.simulation_error).run(job).evidence;
   };
-  const std::optional<double> by_s = farLogClock(evidenceAt);
-  if (!by_s) return std::nullopt;
-  Attempt far = answered(input, options, priors, near.log_clock_s + *by_s, job);
+  const std::optional<ClockOffset> by = farLogClock(evidenceAt);
+  if (!by) return std::nullopt;
+  Attempt far = answered(input, options, priors, near.log_clock_s + by->offset_s, job);
+  far.log_clock_uncertainty_s = by->standard_uncertainty_s;
   // A clock that is hours off is believed for what explains all of it.
   const bool all = !far.judged.names.empty() && far.judged.leftover.empty();
   const double worth = far.analysis->posterior.over_unknown - std::max(0.0, analysis.posterior.over_unknown);
@@ -724,11 +730,8 @@ DiscrepancyResult findDiscrepancy(const DiscrepancyInput& input, const Discrepan
   result.unmatched = rows.unmatched;
   result.sensors = analysis.drivers->sensors();
   result.clock_offset_s = attempt.log_clock_s + analysis.clock_offset_s;
-  // Far off it is found in steps, as long as nothing finer is seen.
   const bool found_far_off = attempt.log_clock_s != input.log_clock_s;
-  result.clock_offset_uncertainty_s =
-      std::hypot(found_far_off && analysis.clock_uncertainty_s == 0.0 ? far_clock_resolution_s : 0.0,
-                 input.log_clock_uncertainty_s, analysis.clock_uncertainty_s);
+  result.clock_offset_uncertainty_s = std::hypot(attempt.log_clock_uncertainty_s, analysis.clock_uncertainty_s);
   if (found_far_off) {
     result.warnings.push_back(
         fmt::format("What is named fits the log as if its clock were about {:.0f} min {} that of the observations, and "

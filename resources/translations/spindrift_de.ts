@@ -10805,11 +10805,8 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>Stylus</source>
-        <translation>Tastereinsatz</translation>
-    </message>
-    <message>
-        <source>Radius / mm</source>
-        <translation>Radius / mm</translation>
+        <translation>Taster-
+einsatz</translation>
     </message>
     <message>
         <source>x / mm</source>
@@ -10882,6 +10879,12 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>Show it</source>
         <translation>Anzeigen</translation>
+    </message>
+    <message>
+        <source>Radius
+/ mm</source>
+        <translation>Radius
+/ mm</translation>
     </message>
 </context>
 <context>

@@ -157,7 +157,7 @@ MachinePage::MachinePage(PageContext page_context, QWidget* parent)
 
   auto* picture = new Card(tr("How it is built"));
   view_ = new View3D;
-  view_->setMinimumWidth(200);  // beside the help
+  view_->setMinimumWidth(190);  // beside the help
   view_->setEmptyText(tr("The machine will appear here"), tr("Give its chain and the travel of its axes."));
   picture->body()->addWidget(view_, 1);
   auto* tabs = makeTabs();

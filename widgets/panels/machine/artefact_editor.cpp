@@ -73,11 +73,11 @@ ArtefactEditor::ArtefactEditor(PageContext page_context, QWidget* parent)
   view_ = new View3D;
   view_->setEmptyText(tr("The artefact will appear here"), tr("Add a hole bar or balls, and type their certificate."));
   view_->setMachineVisible(false);
-  right->body()->addWidget(view_, 3);
+  right->body()->addWidget(view_, 1);
   right->body()->addWidget(makeLabel(tr("Styli"), "sectionTitle"));
-  styli_ = makeEditor({tr("Stylus"), tr("Radius / mm"), tr("x / mm"), tr("y / mm"), tr("z / mm")}, tr("Styli"));
+  styli_ = makeEditor({tr("Stylus"), tr("Radius\n/ mm"), tr("x / mm"), tr("y / mm"), tr("z / mm")}, tr("Styli"));
   styli_->setToolTip(tr("Offset: tip minus spindle reference"));
-  right->body()->addWidget(styli_, 2);
+  right->body()->addWidget(styli_, 1);
   auto* stylus_buttons = new WrapLayout;
   auto* add_stylus = makeButton(tr("Add stylus"), "plus");
   auto* remove_stylus = makeButton(tr("Remove stylus"), "trash");
