@@ -18769,10 +18769,6 @@ einsatz</translation>
         <translation>Höhe</translation>
     </message>
     <message>
-        <source>Cold and warm</source>
-        <translation>Kalt und warm</translation>
-    </message>
-    <message>
         <source>Change</source>
         <translation>Änderung</translation>
     </message>
@@ -19001,6 +18997,14 @@ einsatz</translation>
     <message>
         <source>Used</source>
         <translation>Verwendet</translation>
+    </message>
+    <message>
+        <source>Both</source>
+        <translation>Beide</translation>
+    </message>
+    <message>
+        <source>Cold and warm, one over the other</source>
+        <translation>Kalt und warm übereinander</translation>
     </message>
 </context>
 <context>

@@ -51,8 +51,8 @@ ScanCapturePage::ScanCapturePage(PageContext page_context, QWidget* parent)
   list->body()->addLayout(buttons);
 
   auto* right = new Card;
-  colouring_ = new Segments({tr("Height"), tr("Cold and warm"), tr("Change"), tr("Residual"), tr("Used")},
-                            tr("Colours"));
+  colouring_ = new Segments({tr("Height"), tr("Both"), tr("Change"), tr("Residual"), tr("Used")}, tr("Colours"));
+  colouring_->button(1)->setToolTip(tr("Cold and warm, one over the other"));
   colouring_->button(2)->setToolTip(tr("Height over the cold scan as it was measured"));
   colouring_->button(3)->setToolTip(tr("Height over the cold scan after registration"));
   colouring_->button(4)->setToolTip(tr("0 used, 1 near an edge, 2 outlier, 3 masked"));
