@@ -5,8 +5,8 @@
 
 #include <algorithm>
 #include <fstream>
-#include <utility>
 #include <limits>
+#include <utility>
 
 #include "core/base/error.h"
 #include "core/discrepancy/comparable_rows.h"
