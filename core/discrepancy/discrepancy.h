@@ -61,7 +61,7 @@ struct DiscrepancyInput {
   double simulation_gain_uncertainty = 0.01;
   bool absolute = false;                   ///< values are absolute: no free constant for each point and component
   std::shared_ptr<const OwnEffects> own;   ///< effects of the user; may be null
-  std::shared_ptr<const ErrorModel> base;  ///< the simulation as a model; may be null
+  std::shared_ptr<const ErrorModel> base;  ///< the simulation as a model, by the clock of the observations; may be null
   std::shared_ptr<const SimulatorTangents> tangents;  ///< of a simulator (simulator_tangents.h); may be null
   std::string base_table;                             ///< name of simulation.csv for model.json; may be empty
   std::vector<std::string> notes;                     ///< sentences about the simulation that belong to the result

@@ -108,15 +108,15 @@ DiscrepancyInput withSimulation(const Campaign& campaign, ObservationSet observa
     const auto model = EffectModel::read(file, campaign.machine, campaign.log ? &*campaign.log : nullptr,
                                          input.observations.points(), input.own.get(), input.absolute);
     input.base = model;
-    const auto predicted = [&](const Observation& o, double time_s) {
-      DeviationQuery query = DeviationQuery::of(o);
-      query.time_s = time_s;
-      return model->predict(query, o.component).value;
-    };
-    if (follow_clock) followClock(input, predicted);
+    if (follow_clock) {
+      followClock(input, [&](const Observation& o, double time_s) {
+        return SimulationOfOtherClock(model, time_s - o.time_s).predict(DeviationQuery::of(o), o.component).value;
+      });
+      if (input.log_clock_s != 0.0) input.base = std::make_shared<SimulationOfOtherClock>(model, input.log_clock_s);
+    }
     input.predicted.reserve(input.observations.rows.size());
     for (const Observation& o : input.observations.rows)
-      input.predicted.push_back(predicted(o, o.time_s + input.log_clock_s));
+      input.predicted.push_back(input.base->predict(DeviationQuery::of(o), o.component).value);
     return input;
   }
   if (file.extension() != ".csv") {

@@ -7,10 +7,13 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "core/machine/error_model.h"
 #include "core/machine/observation.h"
 
 namespace spindrift {
@@ -36,5 +39,23 @@ using PredictedAt = std::function<double(const Observation&, double time_s)>;
 /// From predictions at the times of the observations alone: linear in time between those of one series.
 [[nodiscard]] PredictedAt predictedBetween(const std::vector<Observation>& observations,
                                            const std::vector<double>& predicted);
+
+/// A simulation as a model that is asked by the clock of the observations.
+class SimulationOfOtherClock final : public ErrorModel {
+ public:
+  /// `offset_s`: clock of the simulation minus clock of the observations.
+  SimulationOfOtherClock(std::shared_ptr<const ErrorModel> simulation, double offset_s)
+      : simulation_(std::move(simulation)), offset_s_(offset_s) {}
+  [[nodiscard]] std::string description() const override { return simulation_->description(); }
+  [[nodiscard]] PredictedComponent predict(const DeviationQuery& query, Component component) const override {
+    DeviationQuery there = query;
+    there.time_s += offset_s_;
+    return simulation_->predict(there, component);
+  }
+
+ private:
+  std::shared_ptr<const ErrorModel> simulation_;
+  double offset_s_;
+};
 
 }  // namespace spindrift
