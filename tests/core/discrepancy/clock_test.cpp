@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Clocks that are hours apart: that of the observations from that of simulation and log, and that of the log alone.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include "core/discrepancy/simulation_clock.h"
 #include "tests/core/discrepancy/small_plant.h"
+#include "tests/support/temp_folder.h"
 
 namespace spindrift {
 namespace {
@@ -106,6 +109,85 @@ TEST(SimulationClock, WhatIsMissingIsNamedAllTheSame) {
     }
   }
   EXPECT_GE(right, 7);
+}
+
+/// A model that says what time it is, s.
+class TimeTeller final : public ErrorModel {
+ public:
+  [[nodiscard]] std::string description() const override { return "time"; }
+  [[nodiscard]] PredictedComponent predict(const DeviationQuery& query, Component) const override {
+    return {query.time_s, 0.5};
+  }
+};
+
+TEST(SimulationClock, AModelIsAskedByTheClockOfTheObservations) {
+  const SimulationOfOtherClock model(std::make_shared<TimeTeller>(), -7200.0);
+  DeviationQuery query;
+  query.time_s = 9000.0;
+  EXPECT_DOUBLE_EQ(model.predict(query, Component::EX).value, 1800.0);
+  EXPECT_DOUBLE_EQ(model.predict(query, Component::EX).sigma, 0.5);
+}
+
+TEST(SimulationClock, OfTheFilesOfACampaign) {
+  // The computer at the microscope is two hours ahead of the control, whose log the simulation was computed from.
+  const testing::TempFolder folder;
+  folder.write("machine.json", machine_json);
+  folder.write("campaign.json", R"({"format":"spindrift-campaign","version":1,"name":"c",
+    "start_utc":"2026-01-31T08:00:00Z","simulation":"simulation.csv"})");
+  PredictedAt predicted;
+  const DiscrepancyInput made = stampedLate(Hidden::SpindleDrift, 3, 7200.0, predicted);
+  made.observations.write(folder / "observations.csv");
+  std::string simulation = "time_s,point,component,predicted\n";
+  for (std::size_t i = 0; i < made.predicted.size(); ++i) {
+    const Observation& o = made.observations.rows[i];
+    simulation += fmt::format("{},{},{},{}\n", o.time_s - 7200.0, o.point, toString(o.component), made.predicted[i]);
+  }
+  folder.write("simulation.csv", simulation);
+  std::string log = "time_s";
+  for (const std::string& name : made.log->names()) log += "," + name;
+  for (std::size_t k = 0; k < made.log->time_s().size(); ++k) {
+    log += fmt::format("\n{}", made.log->time_s()[k]);
+    for (const std::string& name : made.log->names()) log += fmt::format(",{}", (*made.log->signal(name))[k]);
+  }
+  folder.write("log.csv", log + "\n");
+
+  const Campaign read = Campaign::read(folder.path());
+  const DiscrepancyInput input = discrepancyInput(read, ObservationSet::read(folder / "observations.csv"));
+  EXPECT_NEAR(input.log_clock_s, -7200.0, 3.0 * input.log_clock_uncertainty_s);
+  // Told by the clock of the observations: nothing is moved but what they are compared with.
+  EXPECT_EQ(input.observations.rows.front().time_s, 7200.0);
+  const DiscrepancyResult result = run(input);
+  ASSERT_EQ(result.effects.size(), 1u);
+  EXPECT_EQ(result.effects[0].id, "spindle.drift.y");
+  EXPECT_TRUE(says(result, "so they are compared with simulation and log at that time"));
+}
+
+TEST(LogClock, OfACoolantThatActsWithinMinutes) {
+  // By a programme that does not repeat; the readings are stamped two hours late.
+  DiscrepancyInput input = campaign(Hidden::Nothing, 9);
+  std::vector<double> coolant;
+  Random random(3);
+  bool on = false;
+  const std::vector<double>& time_s = input.log->time_s();
+  while (coolant.size() < time_s.size()) {
+    coolant.insert(coolant.end(), static_cast<std::size_t>(random.uniform(20.0, 110.0)), on ? 1.0 : 0.0);
+    on = !on;
+  }
+  coolant.resize(time_s.size());
+  input.log->setSignal("coolant", coolant);
+  const double step_s = time_s[1] - time_s[0];
+  for (Observation& o : input.observations.rows) {
+    if (o.component != Component::EX) continue;
+    double q = 0.0;
+    for (std::size_t i = 0; step_s * static_cast<double>(i) < o.time_s - 7200.0; ++i)
+      q += step_s * (coolant[i] - q) / 500.0;
+    o.value += 6.0 * q;
+  }
+  const DiscrepancyResult result = run(input);
+  ASSERT_EQ(result.effects.size(), 1u);
+  EXPECT_EQ(result.effects[0].id, "coolant.shock.x");
+  EXPECT_NEAR(result.clock_offset_s, -7200.0, 3.0 * result.clock_offset_uncertainty_s);
+  EXPECT_TRUE(says(result, "behind that of the observations"));
 }
 
 TEST(LogClock, FarOffIsFoundWithWhatIsMissing) {

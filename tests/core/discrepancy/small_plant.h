@@ -49,16 +49,16 @@ inline Plant runPlant(Random& random) {
   return p;
 }
 
-inline MachineDescription machine() {
-  return MachineDescription::parse(
-      JsonNode::parse(R"({"format":"spindrift-machine","version":1,"name":"m","chain":"V [w-X'-Y'-b-Z-t]",
+inline constexpr auto machine_json =
+    R"({"format":"spindrift-machine","version":1,"name":"m","chain":"V [w-X'-Y'-b-Z-t]",
   "axes":[{"name":"X","travel_mm":[0,480],"drive":{"type":"ball_screw","pitch_mm":10,"fixed_bearing_mm":0}},
           {"name":"Y","travel_mm":[0,400],"drive":{"type":"ball_screw","pitch_mm":10,"fixed_bearing_mm":0}},
           {"name":"Z","travel_mm":[0,400],"drive":{"type":"ball_screw","pitch_mm":10,"fixed_bearing_mm":0}}],
   "table":{"centre_mm":[240,200]},"column":{"base_mm":-180},
-  "temperature_sensors":[{"name":"T_spindle_degC","place":"front bearing"},{"name":"T_room_degC","place":"room"}]})",
-                      "machine.json"),
-      "machine.json");
+  "temperature_sensors":[{"name":"T_spindle_degC","place":"front bearing"},{"name":"T_room_degC","place":"room"}]})";
+
+inline MachineDescription machine() {
+  return MachineDescription::parse(JsonNode::parse(machine_json, "machine.json"), "machine.json");
 }
 
 enum class Hidden { Nothing, SpindleDrift, DriftThatLifts, Screw, Slip, Wave, TurnAndDrift };
