@@ -31,12 +31,7 @@ class Editor : public QTableWidget {
 
  protected:
   void updateGeometries() override {
-    auto* titles = dynamic_cast<TableTitles*>(horizontalHeader());
-    const bool narrow = leastWidth(false) > viewport()->width();
-    if (titles != nullptr && titles->narrow() != narrow) {
-      titles->setNarrow(narrow);
-      updateGeometry();  // a second line takes its height
-    }
+    if (auto* titles = dynamic_cast<TableTitles*>(horizontalHeader())) titles->fit(leastWidth(false));
     QTableWidget::updateGeometries();
   }
   void paintEvent(QPaintEvent* event) override {

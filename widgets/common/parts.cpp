@@ -354,12 +354,7 @@ class QuietTable : public QTableView {
 
  protected:
   void updateGeometries() override {
-    auto* titles = dynamic_cast<TableTitles*>(horizontalHeader());
-    const bool narrow = leastWidth(false) > viewport()->width();
-    if (titles != nullptr && titles->narrow() != narrow) {
-      titles->setNarrow(narrow);
-      updateGeometry();  // a second line takes its height
-    }
+    if (auto* titles = dynamic_cast<TableTitles*>(horizontalHeader())) titles->fit(leastWidth(false));
     QTableView::updateGeometries();
     // Rows have got other heights.
     if (const int height = minimumSizeHint().height(); height != asked_height_) {

@@ -28,12 +28,15 @@ TableTitles::TableTitles(QWidget* parent) : QHeaderView(Qt::Horizontal, parent) 
   setHighlightSections(false);
 }
 
-void TableTitles::setNarrow(bool narrow) {
+void TableTitles::fit(int width_px) {
+  auto* table = qobject_cast<QAbstractItemView*>(parentWidget());
+  const bool narrow = table != nullptr && width_px > table->viewport()->width();
   if (narrow == narrow_) return;
   narrow_ = narrow;
   if (count() > 0) headerDataChanged(orientation(), 0, count() - 1);  // the height anew
   resizeSections();
   updateGeometry();
+  table->updateGeometry();  // a second line takes its height
 }
 
 QString TableTitles::title(int section, bool narrow) const {

@@ -11,8 +11,9 @@ namespace spindrift::gui {
 class TableTitles : public QHeaderView {
  public:
   explicit TableTitles(QWidget* parent);
-  /// In two lines, each title as narrow as its words allow.
-  void setNarrow(bool narrow);
+  /// In two lines, each title as narrow as its words allow, where the columns have no room beside each other: they ask
+  /// for `width_px` with titles in one line. For the updateGeometries of the table that the titles belong to.
+  void fit(int width_px);
   [[nodiscard]] bool narrow() const { return narrow_; }
   /// What a title asks for in one line, or in two.
   [[nodiscard]] int titleWidth(int section, bool narrow) const;
