@@ -149,25 +149,31 @@ struct PrintedArguments {
 
 void addImport(CLI::App& app, CommandLine& line) {
   auto a = std::make_shared<PrintedArguments>();
-  CLI::App* command =
-      addCommand(app, line, "import-touches", "Convert the printed output of a measuring program into touches.csv",
-                 [a](JobContext&) {
-                   const MachineDescription machine = MachineDescription::read(a->machine);
-                   const JsonNode pattern = JsonNode::read(a->pattern);
-                   const PrintedText printed = readPrintedText(readFile(a->printed), a->printed, pattern, machine);
-                   printed.touches.checkAgainst(machine);
-                   const std::string text = printed.touches.csv();
-                   (void)TouchList::parse(text, a->printed);  // only what every command can read is written
-                   writeFileAtomically(a->out, text);
-                   CommandResult result;
-                   result.json = {{"touches", printed.touches.touches.size()},
-                                  {"cycles", printed.touches.cycles()},
-                                  {"ignored_lines", printed.ignored_lines}};
-                   result.summary = fmt::format(
-                       "{} in {}, {} skipped\n", countOf(printed.touches.touches.size(), "touch", "touches"),
-                       countOf(printed.touches.cycles().size(), "cycle"), countOf(printed.ignored_lines, "line"));
-                   return result;
-                 });
+  CLI::App* command = addCommand(
+      app, line, "import-touches", "Convert the printed output of a measuring program into touches.csv",
+      [a](JobContext&) {
+        const MachineDescription machine = MachineDescription::read(a->machine);
+        const JsonNode pattern = JsonNode::read(a->pattern);
+        const PrintedText printed = readPrintedText(readFile(a->printed), a->printed, pattern, machine);
+        printed.touches.checkAgainst(machine);
+        const std::string text = printed.touches.csv();
+        (void)TouchList::parse(text, a->printed);  // only what every command can read is written
+        writeFileAtomically(a->out, text);
+        CommandResult result;
+        result.json = {{"touches", printed.touches.touches.size()},
+                       {"cycles", printed.touches.cycles()},
+                       {"ignored_lines", printed.ignored_lines},
+                       {"cut_lines", printed.cut_lines}};
+        if (printed.cut_lines > 0)
+          result.warnings.push_back(
+              fmt::format("{}: {} as a touch but {} cut short, the first in line {}: what they printed is lost.",
+                          a->printed, countOf(printed.cut_lines, "line begins", "lines begin"),
+                          printed.cut_lines == 1 ? "is" : "are", printed.first_cut_line));
+        result.summary =
+            fmt::format("{} in {}, {} skipped\n", countOf(printed.touches.touches.size(), "touch", "touches"),
+                        countOf(printed.touches.cycles().size(), "cycle"), countOf(printed.ignored_lines, "line"));
+        return result;
+      });
   command->add_option("PRINTED", a->printed, "Text file as printed by the control")->required();
   command->add_option("--machine", a->machine, "machine.json")->required()->type_name("FILE");
   command->add_option("--template", a->pattern, "Template (JSON); `cycle --template` writes one to start from")

@@ -195,7 +195,7 @@ void addCompensate(CLI::App& parent, CommandLine& line) {
                    const CompensateResult result = compensateLog(a->request, job);
                    if (!a->out.empty()) result.write(a->out);
                    bool worse = false;
-                   for (const auto& o : result.outputs) worse = worse || o.rms_after >= o.rms_before;
+                   for (const auto& o : result.outputs) worse = worse || o.worse();
                    std::string summary = result.summary();
                    if (worse) summary += "not good enough: an output is no better compensated than left alone\n";
                    return CommandResult{result.json(), summary, worse ? NotGoodEnough : Done, result.warnings};

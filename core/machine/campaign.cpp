@@ -77,7 +77,7 @@ Campaign Campaign::read(const std::filesystem::path& folder) {
   campaign.machine = MachineDescription::read(own("machine.json"));
   if (const std::filesystem::path log = own("log.csv"); std::filesystem::exists(log) && !hasJustBegun(log))
     campaign.log = OperatingLog::read(log);
-  (void)own("observations.cov.csv");
+  for (const char* read_elsewhere : {"observations.cov.csv", "pattern.json", "warm_up.csv"}) (void)own(read_elsewhere);
   if (const std::filesystem::path observations = own("observations.csv"); std::filesystem::exists(observations)) {
     campaign.observations = ObservationSet::read(observations);
     campaign.observations->absolute = campaign.absolute;

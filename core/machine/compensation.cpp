@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <string_view>
 
 #include "core/base/units.h"
@@ -25,6 +26,18 @@ void requireCount(int count, int most) {
   if (count < 2 || count > most) {
     throw InputError(fmt::format("{} positions are not allowed; allowed: 2 to {}.", count, most));
   }
+}
+
+/// The comment that names the displacements that were not measured; empty if all were.
+std::string unmeasuredComment(const std::optional<MeasuredBox>& measured) {
+  std::string names;
+  for (std::size_t i = 0; measured && i < 3; ++i)
+    if (!measured->displacement[i]) names += fmt::format("{}E{}", names.empty() ? "" : ", ", axis_names[i]);
+  return names.empty() ? std::string() : fmt::format("# not measured, so that nothing is stated of it: {}\n", names);
+}
+
+std::string fieldOf(double value, bool known) {
+  return known ? fmt::format(",{:.4f}", value) : std::string(",");
 }
 
 double positionAt(const LinearAxis& axis, int i, int count) {
@@ -85,14 +98,15 @@ std::vector<CompensationNode> compensationGrid(const ErrorModel& model, const Co
 
 std::string compensationGridCsv(const std::vector<CompensationNode>& nodes,
                                 const std::optional<MeasuredBox>& measured) {
-  std::string text =
-      "# correction to add to the command = minus the predicted deviation (actual minus commanded)\n"
-      "x_mm,y_mm,z_mm,correction_x_um,correction_y_um,correction_z_um,sigma_x_um,sigma_y_um,sigma_z_um";
+  const auto known = [&](Eigen::Index i) { return !measured || measured->displacement[static_cast<std::size_t>(i)]; };
+  std::string text = "# correction to add to the command = minus the predicted deviation (actual minus commanded)\n" +
+                     unmeasuredComment(measured) +
+                     "x_mm,y_mm,z_mm,correction_x_um,correction_y_um,correction_z_um,sigma_x_um,sigma_y_um,sigma_z_um";
   text += measured ? ",extrapolated\n" : "\n";
   for (const CompensationNode& n : nodes) {
-    text += fmt::format("{},{},{},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f}", n.position_mm.x(), n.position_mm.y(),
-                        n.position_mm.z(), n.correction_um.x(), n.correction_um.y(), n.correction_um.z(),
-                        n.sigma_um.x(), n.sigma_um.y(), n.sigma_um.z());
+    text += fmt::format("{},{},{}", n.position_mm.x(), n.position_mm.y(), n.position_mm.z());
+    for (const Eigen::Vector3d* values : {&n.correction_um, &n.sigma_um})
+      for (Eigen::Index i = 0; i < 3; ++i) text += fieldOf((*values)[i], known(i));
     if (measured) text += measured->contains(n.position_mm) ? ",0" : ",1";
     text += '\n';
   }
@@ -130,7 +144,13 @@ AxisComponentTable axisComponents(const ErrorModel& model, const MachineDescript
 std::string axisComponentsCsv(const AxisComponentTable& table, const std::optional<MeasuredBox>& measured) {
   const auto axis = static_cast<Eigen::Index>(std::string_view("XYZ").find(table.axis));
   SPINDRIFT_ASSERT(axis >= 0 && axis < 3, "a table of X, Y or Z");
-  const bool known = !measured || measured->extendsAlong(static_cast<int>(axis));
+  const bool along = !measured || measured->extendsAlong(static_cast<int>(axis));
+  std::array<bool, 6> known{};
+  for (std::size_t i = 0; i < 6; ++i) {
+    known[i] = along && (!measured || (i < 3 ? measured->displacement[i]
+                                             : std::any_of(table.sigma.begin(), table.sigma.end(),
+                                                           [&](const auto& sigma) { return sigma[i] > 0.0; })));
+  }
   std::string header = "position_mm";
   std::string sigma_header;
   for (int i = 0; i < 6; ++i) {
@@ -140,14 +160,17 @@ std::string axisComponentsCsv(const AxisComponentTable& table, const std::option
   }
   std::string text =
       fmt::format("# ISO 230-1 component errors of {}: deviation = actual minus commanded\n", table.axis);
-  if (!known)
-    text += fmt::format("# nothing was measured along {} (all points lie at {:g} mm): no error of it is stated\n",
+  if (!along) {
+    text += fmt::format("# nothing was measured along {} (all points lie at {:.4g} mm): no error of it is stated\n",
                         table.axis, measured->low_mm[axis]);
+  } else {
+    text += unmeasuredComment(measured);
+  }
   text += header + sigma_header + (measured ? ",extrapolated\n" : "\n");
   for (std::size_t row = 0; row < table.position_mm.size(); ++row) {
     text += fmt::format("{}", table.position_mm[row]);
     for (const auto* values : {&table.deviation[row], &table.sigma[row]})
-      for (const double v : *values) text += known ? fmt::format(",{:.4f}", v) : std::string(",");
+      for (std::size_t i = 0; i < 6; ++i) text += fieldOf((*values)[i], known[i]);
     if (measured) {
       Eigen::Vector3d position = measured->low_mm;
       position[axis] = table.position_mm[row];

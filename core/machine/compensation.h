@@ -40,17 +40,21 @@ struct CompensationGridOptions {
   void validate() const;
 };
 
-/// The box of the places where something was measured. A table says what lies outside it, and states no error of an
-/// axis along which it has no extent.
+/// The box of the places where something was measured, and which displacements were. A table says what lies outside the
+/// box, and states nothing of an axis along which it has no extent or of a displacement that was not measured.
 struct MeasuredBox {
+  /// What a probe or a table scatters about one place is no extent.
+  static constexpr double least_extent_mm = 1.0;
+
   Eigen::Vector3d low_mm = Eigen::Vector3d::Zero();
   Eigen::Vector3d high_mm = Eigen::Vector3d::Zero();
+  std::array<bool, 3> displacement{true, true, true};  ///< EX, EY, EZ
 
   [[nodiscard]] bool contains(const Eigen::Vector3d& position_mm) const noexcept {
     constexpr double slack_mm = 1e-6;
     return ((position_mm - low_mm).array() >= -slack_mm).all() && ((high_mm - position_mm).array() >= -slack_mm).all();
   }
-  [[nodiscard]] bool extendsAlong(int axis) const noexcept { return high_mm[axis] - low_mm[axis] > 1e-3; }
+  [[nodiscard]] bool extendsAlong(int axis) const noexcept { return high_mm[axis] - low_mm[axis] >= least_extent_mm; }
 };
 
 struct CompensationNode {
@@ -63,7 +67,7 @@ struct CompensationNode {
                                                              const CompensationGridOptions& options,
                                                              const DeviationQuery& conditions);
 /// x_mm,y_mm,z_mm,correction_x_um,correction_y_um,correction_z_um,sigma_x_um,sigma_y_um,sigma_z_um; with `measured`
-/// also extrapolated: 1 for a node outside that box.
+/// also extrapolated: 1 for a node outside that box; and empty fields for a displacement that was not measured.
 [[nodiscard]] std::string compensationGridCsv(const std::vector<CompensationNode>& nodes,
                                               const std::optional<MeasuredBox>& measured = {});
 
@@ -82,7 +86,8 @@ struct AxisComponentTable {
                                                 const std::string& axis, const Eigen::Vector3d& reference_mm, int count,
                                                 const DeviationQuery& conditions);
 /// position_mm,EXX_um,EYX_um,EZX_um,EAX_urad,EBX_urad,ECX_urad and sigma_ of each; with `measured` also extrapolated,
-/// and empty fields (said in a comment) where nothing was measured along the axis.
+/// and empty fields (said in a comment) where nothing was measured along the axis, for a displacement that was not
+/// measured, and for a rotation that the model knows nothing of (its uncertainty is zero everywhere).
 [[nodiscard]] std::string axisComponentsCsv(const AxisComponentTable& table,
                                             const std::optional<MeasuredBox>& measured = {});
 

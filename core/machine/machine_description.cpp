@@ -7,6 +7,7 @@
 #include <set>
 
 #include "core/base/text.h"
+#include "core/machine/artefact_ranges.h"
 
 namespace spindrift {
 namespace {
@@ -85,8 +86,14 @@ Artefact parseArtefact(const JsonNode& node) {
     });
     if (artefact.balls.empty()) node.reject("an artefact with at least one ball under \"balls\"");
   }
-  artefact.expansion_um_per_m_K = optionalNumber(node, "expansion_um_per_m_K");
-  artefact.temperature_degC = optionalNumber(node, "temperature_degC");
+  const auto within = [&](const char* key, const std::array<double, 2>& range) {
+    const std::optional<double> value = optionalNumber(node, key);
+    if (value && !(*value >= range[0] && *value <= range[1]))
+      node.at(key).reject(fmt::format("a number from {:g} to {:g}", range[0], range[1]));
+    return value;
+  };
+  artefact.expansion_um_per_m_K = within("expansion_um_per_m_K", artefact_expansion_range_um_per_m_K);
+  artefact.temperature_degC = within("temperature_degC", artefact_temperature_range_degC);
   if (const auto u = node.find("certificate_uncertainty_um")) {
     artefact.certificate_uncertainty_um = u->nonNegativeNumber();
   }

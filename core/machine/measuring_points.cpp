@@ -131,7 +131,12 @@ void PlacementOptions::validate(std::size_t candidates) const {
   if (fixed.size() > static_cast<std::size_t>(count)) {
     throw InputError(fmt::format("{} fixed positions are more than the {} to be chosen.", fixed.size(), count));
   }
-  for (const std::size_t i : fixed) SPINDRIFT_ASSERT(i < candidates, "a fixed position must be a candidate");
+  for (std::size_t k = 0; k < fixed.size(); ++k) {
+    SPINDRIFT_ASSERT(fixed[k] < candidates, "a fixed position must be a candidate");
+    if (std::find(fixed.begin(), fixed.begin() + static_cast<std::ptrdiff_t>(k), fixed[k]) !=
+        fixed.begin() + static_cast<std::ptrdiff_t>(k))
+      throw InputError("a position to be kept is listed twice; allowed: each once.");
+  }
   if (least_distance_mm && !(*least_distance_mm >= 0.0)) {
     throw InputError(
         fmt::format("a distance of {:g} mm between positions is not allowed; allowed: 0 or more.", *least_distance_mm));

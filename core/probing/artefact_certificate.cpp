@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "core/base/json_reader.h"
+#include "core/base/text.h"
 #include "core/base/units.h"
 
 namespace spindrift {
@@ -33,6 +34,14 @@ ArtefactCertificate ArtefactCertificate::of(const MachineDescription& machine, c
     if (!temperature_stated) certificate.taken_as_exact.emplace_back("the temperature");
   }
   return certificate;
+}
+
+std::string ArtefactCertificate::takenAsExact(const std::string& artefact, double strain) const {
+  if (taken_as_exact.empty() || !(strain > 0.0)) return {};
+  return fmt::format(
+      "the machine file states no uncertainty of {} of {}: taken as exact, though lengths were corrected by up to "
+      "{:.1f} µm/m.",
+      joinedList(taken_as_exact), artefact, strain * um_per_m_per_unit);
 }
 
 std::optional<double> artefactTemperature(const Artefact& artefact, const OperatingLog* log, double time_s) {

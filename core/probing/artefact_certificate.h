@@ -29,6 +29,9 @@ struct ArtefactCertificate {
   std::vector<std::string>
       taken_as_exact;  ///< "the expansion coefficient", "the temperature": no uncertainty is stated
 
+  /// A warning if something was taken as exact and lengths were corrected by `strain` for it; else empty.
+  [[nodiscard]] std::string takenAsExact(const std::string& artefact, double strain) const;
+
   [[nodiscard]] static ArtefactCertificate of(const MachineDescription& machine, const Artefact& artefact);
 };
 

@@ -10,6 +10,8 @@
 #include <optional>
 #include <set>
 
+#include "core/machine/artefact_ranges.h"
+
 namespace spindrift {
 namespace {
 
@@ -187,7 +189,9 @@ std::vector<ArtefactFinding> checkArtefact(const nlohmann::json& artefact, const
   } else {
     checkBalls(artefact, check);
   }
-  const auto expansion = check.optional("expansion_um_per_m_K", "The expansion coefficient", -5.0, 100.0, "um/(m·K)");
+  const auto expansion =
+      check.optional("expansion_um_per_m_K", "The expansion coefficient", artefact_expansion_range_um_per_m_K[0],
+                     artefact_expansion_range_um_per_m_K[1], "um/(m·K)");
   if (expansion && *expansion != 0.0 && std::abs(*expansion) < 0.05) {
     check.add(
         "expansion_um_per_m_K", -1, -1,
@@ -195,7 +199,8 @@ std::vector<ArtefactFinding> checkArtefact(const nlohmann::json& artefact, const
                     *expansion),
         false);
   }
-  (void)check.optional("temperature_degC", "The temperature of the artefact", -20.0, 80.0, "degC");
+  (void)check.optional("temperature_degC", "The temperature of the artefact", artefact_temperature_range_degC[0],
+                       artefact_temperature_range_degC[1], "degC");
   const auto certificate =
       check.optional("certificate_uncertainty_um", "The uncertainty of the certificate", 0.0, unlimited, "um");
   if (certificate && *certificate > 50.0) {

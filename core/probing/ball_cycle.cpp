@@ -155,16 +155,12 @@ BallCycleResult evaluateBallCycles(const TouchList& list, const MachineDescripti
   ArtefactGrowth growth;
   if (grows) {
     growth = artefactGrowth(certificate, artefact, log, result.cycle_time_s);
-    if (!certificate.taken_as_exact.empty()) {
-      double largest = 0.0;
-      for (const double strain : growth.strain) largest = std::max(largest, std::abs(strain));
-      if (largest > 0.0) {
-        result.warnings.push_back(fmt::format(
-            "the machine file states no uncertainty of {} of {}: taken as exact, though up to {:.1f} µm/m were taken "
-            "off.",
-            joinedList(certificate.taken_as_exact), artefact.id, largest * um_per_m_per_unit));
-      }
-    }
+    double largest = 0.0;
+    for (const double temperature : growth.temperature_degC)
+      largest = std::max(largest, std::abs(alpha * (temperature - certificate.reference_degC)));
+    for (const double strain : growth.strain) largest = std::max(largest, std::abs(strain));
+    if (std::string warning = certificate.takenAsExact(artefact.id, largest); !warning.empty())
+      result.warnings.push_back(std::move(warning));
     addGrowthUncertainty(corrected, growth.factors, arm_mm, result);
   }
 

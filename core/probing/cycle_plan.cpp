@@ -18,8 +18,13 @@ void CyclePlanOptions::validate() const {
   positive(retract_mm, "retract_mm");
   positive(overtravel_mm, "overtravel_mm");
   positive(depth_mm, "depth_mm");
-  positive(touch_feed_mm_min, "touch_feed_mm_min");
-  positive(guarded_feed_mm_min, "guarded_feed_mm_min");
+  const auto feed = [](double v, const char* name, double most) {
+    if (!(v >= least_feed_mm_min && v <= most))
+      throw InputError(
+          fmt::format("{} {} is not allowed; allowed: {:g} to {:g} mm/min.", name, v, least_feed_mm_min, most));
+  };
+  feed(touch_feed_mm_min, "touch_feed_mm_min", most_touch_feed_mm_min);
+  feed(guarded_feed_mm_min, "guarded_feed_mm_min", most_guarded_feed_mm_min);
   if (retract_mm < clearance_mm) throw InputError("retract_mm must not be smaller than clearance_mm.");
 }
 

@@ -32,6 +32,11 @@ struct PlannedMove {
 };
 
 struct CyclePlanOptions {
+  /// A feed is written as a whole number; a probe that is faster breaks before the control stops.
+  static constexpr double least_feed_mm_min = 1.0;
+  static constexpr double most_touch_feed_mm_min = 3000.0;
+  static constexpr double most_guarded_feed_mm_min = 20000.0;
+
   double clearance_mm = 5.0;       ///< free distance kept around material by all moves that are no touches
   double retract_mm = 30.0;        ///< safe height above the highest material
   double overtravel_mm = 2.0;      ///< a touch may search so far behind the nominal surface

@@ -63,6 +63,18 @@ N10 DPRNT[T*A#1[20]*B#2[20]*C#3[33]*D#7[20]*X#5061[44]*Y#5062[44]*Z#5063[44]*I#4
 M99
 )";
 
+/// A name inside a comment: it must not end the comment, nor hold what a control cannot show or has no room for.
+std::string commentText(std::string_view name) {
+  constexpr std::size_t most = 40;
+  std::string text;
+  for (const char c : name.substr(0, most)) {
+    const bool plain = (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == ' ' ||
+                       c == '-' || c == '.' || c == '_';
+    text += plain ? c : '_';
+  }
+  return text;
+}
+
 /// What one planned move needs to be written in any language.
 struct WrittenMove {
   const PlannedMove& plan;
@@ -94,7 +106,7 @@ std::string writeSiemens(const std::vector<WrittenMove>& moves, char letter, con
       "; NO TOOL OFFSET (D0), PROBE ON MEASURING INPUT 1 AND SWITCHED ON, SPINDLE ORIENTED\n"
       "DEF INT _SPD_E\nDEF REAL _SPD_S\nG710 G90 G94 G40 G500 D0\nR99=R99+1\n"
       "WRITE(_SPD_E,\"_N_SPINDRIFT_MPF\",\"CYCLE \"<<R99)\n",
-      artefact.id, touches);
+      commentText(artefact.id), touches);
   for (const WrittenMove& m : moves) {
     const std::string place = xyz(m.reference_mm);
     switch (m.plan.kind) {
@@ -141,7 +153,7 @@ std::string writeHeidenhain(const std::vector<WrittenMove>& moves, char letter, 
     return fmt::format("X{:+.4f} Y{:+.4f} Z{:+.4f}", clean(p.x()), clean(p.y()), clean(p.z()));
   };
   add("BEGIN PGM SPINDRIFT MM");
-  add(fmt::format("; ARTEFACT {}, {} TOUCHES", artefact.id, touches));
+  add(fmt::format("; ARTEFACT {}, {} TOUCHES", commentText(artefact.id), touches));
   add("; POSITIONS OF THE SPINDLE REFERENCE IN MACHINE COORDINATES, MM");
   add("; PROBE IN THE SPINDLE WITH LENGTH 0 IN ITS TABLE, SWITCHED ON, SPINDLE ORIENTED");
   add("; TOUCH.A AND CYCLE.A STAND IN TNC:\\SPINDRIFT");
@@ -216,7 +228,7 @@ std::string writeProgram(const CyclePlan& plan, const MachineDescription& machin
     return writeHeidenhain(moves, letter, artefact, plan.touches, plan_options);
   std::string text = fanuc ? fmt::format("%\nO{}(SPINDRIFT CYCLE)\n", options.program_number) : "%\n";
   text += fmt::format("(ARTEFACT {}, {} TOUCHES)\n(POSITIONS OF THE SPINDLE REFERENCE IN MACHINE COORDINATES, MM)\n",
-                      artefact.id, plan.touches);
+                      commentText(artefact.id), plan.touches);
   text += "(WORK OFFSET ZERO, NO TOOL LENGTH, PROBE SWITCHED ON, SPINDLE ORIENTED)\n";
   text += "G21 G90 G94 G40 G49 G80\n";
   if (fanuc) {
@@ -298,6 +310,7 @@ nlohmann::json printedTextTemplate(const MachineDescription& machine, const Arte
                      {"mm_per_unit", 1.0}};
   if (timed) {
     out["s_per_unit"] = fanuc ? 0.001 : 1.0;
+    if (options.dialect == ProgramDialect::Siemens) out["clock"] = "day_of_month";
   } else {
     out["touch_interval_s"] = 3.0;
     out["cycle_interval_s"] = 600.0;
@@ -424,7 +437,6 @@ ProgramCheck checkProgram(std::string_view text, const MachineDescription& machi
     millimetres = millimetres || block.millimetres;
     if (block.motion >= 0) motion = block.motion;
     ended = block.ends;
-    if (block.word('M')) continue;
     const bool touch = block.touch;
     const bool guarded = block.guarded;
     const auto word = [&](char letter) { return block.word(letter); };

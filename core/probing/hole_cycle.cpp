@@ -240,11 +240,30 @@ std::vector<CertifiedLengths> compareWithCertificate(const HoleCycleResult& resu
   return out;
 }
 
+/// What the lengths against the certificate rest on without an uncertainty, or were not corrected for.
+void warnOfCertificate(const Artefact& artefact, const ArtefactCertificate& certificate, HoleCycleResult& result) {
+  double warmest_K = 0.0;
+  for (const CertifiedLengths& lengths : result.against_certificate)
+    warmest_K = std::max(warmest_K, std::abs(lengths.temperature_degC.value_or(certificate.reference_degC) -
+                                             certificate.reference_degC));
+  if (!certificate.expansion_per_K && warmest_K > 0.0) {
+    result.warnings.push_back(
+        fmt::format("the expansion coefficient of {} is not stated: its lengths against the certificate are not "
+                    "corrected for {:.1f} K.",
+                    artefact.id, warmest_K));
+  }
+  if (std::string warning =
+          certificate.takenAsExact(artefact.id, warmest_K * std::abs(certificate.expansion_per_K.value_or(0.0)));
+      !warning.empty())
+    result.warnings.push_back(std::move(warning));
+}
+
 constexpr Eigen::Index eme = 8;  ///< growth of the bar among the parameters
 
 /// The growth that coefficient and temperature expect, beside that of the touches; a warning where they contradict.
+/// One temperature for all cycles says nothing of a growth between them.
 [[nodiscard]] bool compareGrowth(const Artefact& artefact, const ArtefactGrowth& growth, HoleCycleResult& result) {
-  if (growth.strain.empty()) return false;
+  if (growth.strain.empty() || !growth.measured) return false;
   double worst = 0.0;
   const ExpectedGrowth* worst_cycle = nullptr;
   result.growth.reserve(result.cycles.size());
@@ -390,12 +409,13 @@ HoleCycleResult evaluateHoleCycles(const TouchList& list, const MachineDescripti
   evaluateCycles(list, machine, artefact, assembly, result);
   const ArtefactCertificate certificate = ArtefactCertificate::of(machine, artefact);
   result.against_certificate = compareWithCertificate(result, artefact, certificate, log);
+  warnOfCertificate(artefact, certificate, result);
   addCertificate(list, artefact, certificate, result);
   const ArtefactGrowth growth = artefactGrowth(certificate, artefact, log, result.cycle_time_s);
   // A growth whose uncertainty nobody states is no measurement; one that contradicts the touches is told, not mixed in;
   // one that is given beforehand has been used.
-  if (compareGrowth(artefact, growth, result) && !options.stable_length && growth.measured &&
-      certificate.expansion_sigma_per_K > 0.0 && certificate.temperature_sigma_K > 0.0) {
+  if (compareGrowth(artefact, growth, result) && !options.stable_length && certificate.expansion_sigma_per_K > 0.0 &&
+      certificate.temperature_sigma_K > 0.0) {
     combineGrowth(growth, result);
   }
 

@@ -51,6 +51,9 @@ PrintedTextReader::PrintedTextReader(std::filesystem::path name, const JsonNode&
   cycle_interval_s_ = positive("cycle_interval_s", 0.0);
   c_sign_ = pattern.numberOr("c_sign", 1.0);
   decimal_comma_ = pattern.booleanOr("decimal_comma", false);
+  day_of_month_ = pattern.has("clock") && pattern.at("clock").oneOf({"running", "day_of_month"}) == "day_of_month";
+  const std::string line = pattern.at("touch_line").string();
+  touch_begin_ = trimmed(std::string_view(line).substr(0, line.find('{')));
   if (const auto values = pattern.find("values")) {
     for (const auto& [place, table] : values->members()) {
       for (const auto& [from, to] : table.members()) translations_[place][from] = to.name();
@@ -153,6 +156,12 @@ Touch PrintedTextReader::touchOf(const Values& values) {
   }
   numbered_[of] = count + 1;
   if (time) {
+    constexpr double day_s = 86400.0;
+    constexpr double shortest_month_s = 28.0 * day_s;
+    if (day_of_month_ && first_time_s_ && *time < printed_s_ - (shortest_month_s - day_s))
+      months_before_s_ += day_s * std::floor(printed_s_ / day_s);
+    printed_s_ = *time;
+    *time += months_before_s_;
     if (!first_time_s_) first_time_s_ = time;
     t.time_s = *time - *first_time_s_;
   } else {
@@ -174,6 +183,7 @@ std::optional<Touch> PrintedTextReader::read(std::string_view whole) {
   }
   if (const auto values = touch_line_.match(line)) return touchOf(*values);
   ++ignored_lines_;
+  if (!touch_begin_.empty() && line.starts_with(touch_begin_) && ++cut_lines_ == 1) first_cut_line_ = line_;
   return std::nullopt;
 }
 
@@ -188,6 +198,8 @@ PrintedText readPrintedText(std::string_view text, const std::filesystem::path& 
     begin = end + 1;
   }
   result.ignored_lines = reader.ignoredLines();
+  result.cut_lines = reader.cutLines();
+  result.first_cut_line = reader.firstCutLine();
   if (result.touches.touches.empty()) {
     throw InputError(
         {name, ""},

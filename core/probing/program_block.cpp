@@ -90,6 +90,16 @@ bool readCommonCode(int code, ProgramBlock& block) {
   return true;
 }
 
+/// A measuring programme moves and probes. Whatever else a block may command (spindle, coolant, tool change) starts
+/// something that the check does not know.
+void refuseOthers(ProgramBlock& block) {
+  constexpr std::string_view known = "ABCDFGIJKMNPXYZ";
+  for (const auto& [letter, value] : block.words) {
+    if (known.find(letter) == std::string_view::npos || (letter == 'M' && value != 30.0 && value != 2.0))
+      block.issues.push_back(fmt::format("{}{:g} is not known here", letter, value));
+  }
+}
+
 std::vector<ProgramBlock> readGCode(const std::vector<Line>& lines) {
   std::vector<ProgramBlock> blocks;
   for (const Line& l : lines) {
@@ -120,6 +130,7 @@ std::vector<ProgramBlock> readGCode(const std::vector<Line>& lines) {
         block.issues.push_back(fmt::format("G{} is not known here", g->second));
       }
     }
+    refuseOthers(block);
     const auto m = block.word('M');
     block.ends = m == 30.0 || m == 2.0;
     if (block.touch && comment.starts_with("TOUCH ")) {
@@ -178,6 +189,7 @@ std::vector<ProgramBlock> readSiemens(const std::vector<Line>& lines) {
         block.issues.push_back(fmt::format("G{} is not known here", g->second));
       }
     }
+    refuseOthers(block);
     block.ends = ended = block.word('M') == 30.0;
     if (block.motion >= 0 && !machine) block.issues.emplace_back("a move without SUPA is not in machine coordinates");
     if (measures) {
@@ -291,6 +303,7 @@ std::vector<ProgramBlock> readHeidenhain(const std::vector<Line>& lines) {
       block.guarded = !rapid && !unwatched;
       if (!machine) block.issues.emplace_back("a move without M91 is not in machine coordinates");
       if (!readWords(line, block.words)) block.issues.push_back(unreadable(lines[i].text));
+      refuseOthers(block);
     } else {
       block.issues.push_back(unreadable(line));
     }

@@ -349,6 +349,10 @@ RegistrationNoise registrationNoise(const RegistrationSolver::Outcome& outcome, 
   }
   // With weights n_s n_t / (n_s + n_t) white noise alone gives (a + b) / 2.
   const double white = std::max(0.5 * (a + b), 1e-18);
+  // Points that scatter within their cells far more than the cells do among each other show relief that the cells do
+  // not resolve. What it shifts is alike in all cells and not averaged away.
+  constexpr double least_correlation = 0.5;
+  long_run = std::max(long_run, least_correlation * white);
   noise.correlation = long_run / white;
   noise.misfit_ratio = std::sqrt(variance * interpolated / white);
   noise.unit_variance = long_run;

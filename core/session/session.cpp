@@ -82,11 +82,24 @@ Session Session::create(const std::filesystem::path& wanted) {
   return {folder, std::move(lock), std::move(database)};
 }
 
+namespace {
+
+/// Lock, database, its journals and copies, campaigns: what a session writes to is in its folder. Throws InputError for
+/// a link out of it, before anything is opened: a lock alone would empty the file that it leads to.
+void refuseLinksOut(const std::filesystem::path& folder) {
+  InsideFolder inside(folder);
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    if (entry.is_symlink()) (void)inside.path(entry.path().filename().string(), {folder, ""});
+}
+
+}  // namespace
+
 Session Session::open(const std::filesystem::path& wanted) {
   const std::filesystem::path folder = std::filesystem::absolute(wanted);
   if (!isSession(folder)) {
     throw InputError({folder, ""}, fmt::format("is not a session; allowed: a folder with {}.", version_file));
   }
+  refuseLinksOut(folder);
   const JsonNode root = JsonNode::read(folder / version_file);
   root.requireFormat("spindrift-session", SessionDatabase::newest_version);
   const int version = root.at("version").integer();

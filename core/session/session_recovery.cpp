@@ -105,8 +105,6 @@ std::string recordedLogKey(std::int64_t campaign) {
 
 RecoveryReport putInOrder(const fs::path& session_folder, SessionDatabase& database, bool crashed) {
   RecoveryReport report;
-  InsideFolder inside(session_folder);
-  for (const char* folder : {"campaigns", "removed"}) (void)inside.path(folder, {session_folder, ""});
   report.leftovers = removeLeftovers(session_folder);
   std::set<fs::path> known;
   for (CampaignRecord& record : database.campaigns()) {

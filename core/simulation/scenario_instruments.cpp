@@ -115,6 +115,22 @@ MicroscopeOptions parseMicroscope(const JsonNode& node, const MachineDescription
   return options;
 }
 
+namespace {
+
+ArtefactBending parseBending(const JsonNode& node) {
+  ArtefactBending b;
+  b.along_mm = node.numberOr("along_mm", 0.0);
+  b.across_mm = node.numberOr("across_mm", 0.0);
+  b.twist_mm = node.numberOr("twist_mm", 0.0);
+  b.held_at = node.numberOr("held_at", 0.0);
+  if (!(std::abs(b.held_at) <= 1.0)) node.at("held_at").reject("a number from -1 to 1");
+  b.skew = node.numberOr("skew", 0.0);
+  readPositive(node, "time_constant_s", b.time_constant_s);
+  return b;
+}
+
+}  // namespace
+
 ProfilerOptions parseProfiler(const JsonNode& node, const MachineDescription& machine, std::vector<double> times_s) {
   if (!machine.profiler) node.reject("a machine with a profiler");
   const ProfilerDescription& described = *machine.profiler;
@@ -156,6 +172,7 @@ ProfilerOptions parseProfiler(const JsonNode& node, const MachineDescription& ma
       }
     }
     artefact.surface.validate();
+    if (const auto bending = item.find("bending")) o.bending[artefact.id] = parseBending(*bending);
     o.artefacts.push_back(artefact);
     o.artefact_at_mm.push_back(point->position_mm);
   }

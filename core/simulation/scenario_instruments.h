@@ -9,12 +9,15 @@
 //                  "pitch_um"}; without it the standard pattern},
 //    "profiler":{"every_s","cycles" or "times_s","seconds_per_artefact","alpha_rad","beta_rad","gamma_rad",
 //                "offset_mm":[dx,dy,dz],"profile_spacing_mm","white_noise_um","speckle_noise_um",
-//                "artefacts":[{"point","y_mm","turn_rad","bumps":[{"x_mm","y_mm","radius_mm","height_mm"}]}]}
+//                "artefacts":[{"point","y_mm","turn_rad","bumps":[{"x_mm","y_mm","radius_mm","height_mm"}],
+//                "bending":{"along_mm","across_mm","twist_mm","held_at","skew","time_constant_s"} (it changes its shape
+//                as the machine warms up; see ArtefactBending)}]}
 //
 // The profiler's lever, lift, scan model, points a profile and calibration circle are those of machine.json.
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -42,8 +45,9 @@ struct ProfilerOptions {
   VirtualProfilerMounting mounting;
   VirtualOptics optics;
   VirtualPocket pocket;
-  std::vector<VirtualArtefact> artefacts;       ///< id = point of the machine
-  std::vector<Eigen::Vector3d> artefact_at_mm;  ///< that point, MCF
+  std::vector<VirtualArtefact> artefacts;          ///< id = point of the machine
+  std::vector<Eigen::Vector3d> artefact_at_mm;     ///< that point, MCF
+  std::map<std::string, ArtefactBending> bending;  ///< of those that bend, by id
 };
 
 /// Throw InputError with file and JSON path for anything that is not as described above.

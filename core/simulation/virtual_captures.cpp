@@ -91,6 +91,7 @@ void VirtualCaptures::writeScans(const std::filesystem::path& folder, nlohmann::
   plan.optics = profiler_->optics;
   plan.pocket = profiler_->pocket;
   plan.artefacts = profiler_->artefacts;
+  plan.bending = profiler_->bending;
   for (std::size_t k = 0; k < profiler_->times_s.size(); ++k) {
     plan.cycles.push_back({fmt::format("C{}", k), profiler_->times_s[k], profiler_->seconds_per_artefact});
   }

@@ -99,6 +99,11 @@ void VirtualOptics::validate() const {
   require(profile_points >= 2, "The virtual profiler needs at least 2 points per profile.");
   require(profile_interval_mm > 0.0 && profile_spacing_mm > 0.0,
           "The spacings of the virtual profiler must be positive (mm).");
+  constexpr double most_points_per_mm = 1e6;
+  require(
+      profile_points / profile_spacing_mm <= most_points_per_mm,
+      "The virtual profiler takes more than a million points per mm; allowed: fewer points in a profile or profiles "
+      "further apart.");
   require(white_noise_um >= 0.0 && speckle_noise_um >= 0.0 && position_jitter_um >= 0.0 && position_error_um >= 0.0,
           "The noise of the virtual profiler must not be negative (µm).");
   require(speckle_points >= 1, "The correlation length of the speckle noise must be at least 1 point.");
@@ -106,6 +111,13 @@ void VirtualOptics::validate() const {
               lost_rate >= 0.0 && lost_rate <= 1.0,
           "The rates of outliers and lost points must lie between 0 and 1.");
   require(steepest_slope > 0.0, "The steepest slope of the virtual profiler must be positive.");
+}
+
+double ArtefactBending::height_mm(const ArtefactSurface& surface, double x_mm, double y_mm, double time_s) const {
+  const double s = 2.0 * x_mm / surface.size_mm.x() - 1.0;
+  const double t = 2.0 * y_mm / surface.size_mm.y() - 1.0 - held_at;
+  const double part = 1.0 - std::exp(-time_s / time_constant_s);
+  return part * (along_mm * (t * t + skew * t * t * t) + across_mm * s * s + twist_mm * s * t);
 }
 
 PointCloud virtualScan(const VirtualArtefact& artefact, const VirtualProfilerMounting& mounting,
@@ -238,7 +250,11 @@ std::string writeVirtualScans(const VirtualScanCampaign& campaign, const std::fi
       if (campaign.error) carriage = [&campaign, time_s](double y_mm) { return campaign.error(time_s, y_mm); };
       Random own = random.split();
       VirtualArtefact now = artefact;
-      if (campaign.bending) now.bending = campaign.bending(artefact, time_s);
+      if (const auto bends = campaign.bending.find(artefact.id); bends != campaign.bending.end()) {
+        now.bending = [&bending = bends->second, &surface = artefact.surface, time_s](double x_mm, double y_mm) {
+          return bending.height_mm(surface, x_mm, y_mm, time_s);
+        };
+      }
       const PointCloud cloud = virtualScan(now, campaign.mounting, campaign.optics, carriage, own);
       const std::string name = fmt::format("captures/clouds/{}_{}.pcd", artefact.id, cycle.name);
       write(cloud, name);

@@ -18,6 +18,7 @@
 #include <array>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -57,6 +58,19 @@ struct VirtualProfilerMounting {
   Eigen::Vector3d offset_mm = Eigen::Vector3d::Zero();  ///< dx, dy, dz without the lift
   double lift_mm = 178.152;
   Eigen::Vector3d lever_mm{-900.0, 0.0, -2051.0};  ///< slide origin to tool frame
+};
+
+/// How an artefact bends while its machine warms up: curved along y and across, twisted, held at one place.
+struct ArtefactBending {
+  double along_mm = 0.0;            ///< over half its length
+  double across_mm = 0.0;           ///< over half its width
+  double twist_mm = 0.0;            ///< at its corners
+  double held_at = 0.0;             ///< place along y where it is held, -1 to 1: there it neither moves nor turns
+  double skew = 0.0;                ///< part of the curvature that grows along y
+  double time_constant_s = 7200.0;  ///< first-order, from the start of the campaign on; > 0
+
+  /// At a place of the surface and a time.
+  [[nodiscard]] double height_mm(const ArtefactSurface& surface, double x_mm, double y_mm, double time_s) const;
 };
 
 /// Where an artefact stands: its centre in the frame of P above, turned by `yaw_rad` about Z.
@@ -105,9 +119,7 @@ struct VirtualScanCampaign {
   std::vector<VirtualScanCycle> cycles;
   /// Error of the axis at the slide's origin, by time (s) and carriage position (mm).
   std::function<SmallError(double time_s, double y_mm)> error;
-  /// VirtualArtefact::bending of an artefact by time (s); may be empty, or give nothing.
-  std::function<std::function<double(double x_mm, double y_mm)>(const VirtualArtefact& artefact, double time_s)>
-      bending;
+  std::map<std::string, ArtefactBending> bending;  ///< of the artefacts that bend, by their id
 };
 
 /// Writes `captures/scans.csv` and the clouds (binary PCD), the calibration scan included, into an existing campaign

@@ -39,8 +39,19 @@ spindrift_compensator* spindrift_compensator_load_with(const char* model_file,
                                                        const spindrift_compensator_options* options, char* message,
                                                        size_t message_size) {
   say("", message, message_size);
-  if (options == nullptr || options->struct_size < offsetof(spindrift_compensator_options, limit)) {
+  constexpr std::size_t most_bytes = 4096;  // beyond that nobody has set it
+  if (options == nullptr || options->struct_size < offsetof(spindrift_compensator_options, limit) ||
+      options->struct_size > most_bytes) {
     say("No options were given, or their struct_size is not set.", message, message_size);
+    return nullptr;
+  }
+  // What a later version of the struct asks for is not left out silently: a limit would be gone.
+  const auto* bytes = reinterpret_cast<const unsigned char*>(options);
+  if (options->struct_size > sizeof(spindrift_compensator_options) &&
+      std::any_of(bytes + sizeof(spindrift_compensator_options), bytes + options->struct_size,
+                  [](unsigned char byte) { return byte != 0; })) {
+    say("The options ask for something that this version of the library does not know; allowed: 0 there.", message,
+        message_size);
     return nullptr;
   }
   // What the caller's version of the struct does not have keeps its default.

@@ -39,7 +39,8 @@ void spindrift_compensator_free(spindrift_compensator* compensator);
 #define SPINDRIFT_COMPENSATOR_ZERO (-1.0)
 
 /* Options of a load. Set `struct_size` to sizeof and leave 0 what shall have its default; a later version of the
- * library only adds members at the end and takes a shorter struct as it is. Units: um or urad, s. */
+ * library only adds members at the end and takes a shorter struct as it is; an earlier one refuses a longer struct that
+ * is not 0 beyond what it knows. Units: um or urad, s. */
 typedef struct spindrift_compensator_options {
   size_t struct_size;
   double cycle_s;         /* needed */

@@ -166,9 +166,19 @@ AxisPositionResult evaluatePosition(const std::vector<AxisReading>& readings, do
 
 }  // namespace
 
-void requireSpindleAtRest(const TimeSeries& series) {
+std::vector<std::string> requireMachineAtRest(const TimeSeries& series) {
+  std::vector<std::string> notes;
+  bool speed_known = false;
   for (const Signal& signal : series.signals) {
+    if (signal.kind == SignalKind::Feed) {
+      const auto moves = std::find_if(signal.values.begin(), signal.values.end(), [](double v) { return v > 0.0; });
+      if (moves == signal.values.end()) continue;
+      notes.push_back(fmt::format(
+          "{} is {:g} at {:g} s: an ETVE test is of a machine at rest, and what its axes heat counts as environment.",
+          signal.name, *moves, series.time_s[static_cast<std::size_t>(moves - signal.values.begin())]));
+    }
     if (signal.kind != SignalKind::Speed) continue;
+    speed_known = true;
     for (std::size_t row = 0; row < signal.values.size(); ++row) {
       if (!(std::abs(signal.values[row]) > creep_rpm)) continue;
       throw InputError({series.file, fmt::format("column {}", signal.name)},
@@ -177,6 +187,9 @@ void requireSpindleAtRest(const TimeSeries& series) {
                                    signal.values[row], series.time_s[row]));
     }
   }
+  if (!speed_known)
+    notes.emplace_back("the log has no spindle speed: that the machine was at rest could not be checked.");
+  return notes;
 }
 
 std::string requireOneSpeedStep(const TimeSeries& series, const std::string& column, std::span<const double> speed) {

@@ -45,7 +45,8 @@ struct EtveResult {
 };
 constexpr double level_window_s = 120.0;  ///< short beside an hour, in which the standard counts
 /// The test is of a machine at rest. Throws InputError if a spindle (a signal of kind Speed) turns anywhere in the log.
-void requireSpindleAtRest(const TimeSeries& series);
+/// Returns what else speaks against a machine at rest or could not be checked: axes that moved, a log without a speed.
+[[nodiscard]] std::vector<std::string> requireMachineAtRest(const TimeSeries& series);
 /// `ambient_degC` may be empty: then nothing is per K.
 [[nodiscard]] EtveResult evaluateEtve(std::span<const double> time_s, const std::vector<ComponentSeries>& components,
                                       std::span<const double> ambient_degC, double window_s = level_window_s);

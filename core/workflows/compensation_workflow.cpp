@@ -218,7 +218,10 @@ void addMeasuredRows(const DiscrepancyRun& run, CompensationPlan& plan, Deviatio
     CompensationPoint& p = plan.points[k];
     for (std::size_t i = 0; i < 3; ++i) {
       const Sum& s = sums[k][i];
-      if (!(s.count > 0.0)) continue;
+      if (!(s.count > 0.0)) {
+        p.correction_um[static_cast<Eigen::Index>(i)] = p.sigma_um[static_cast<Eigen::Index>(i)] = std::nan("");
+        continue;
+      }
       p.measured_um[i] = s.measured / s.count;
       p.measured_sigma_um[i] = std::sqrt(s.sigma) / s.count;
       p.correction_um[static_cast<Eigen::Index>(i)] = 0.0 + s.correction / s.count;
@@ -304,17 +307,20 @@ void makeFiles(const MachineDescription& machine, const PreparedModel& prepared,
     csv += csvField(p.point);
     // A nanometre is more than a place is known to.
     for (int i = 0; i < 3; ++i) csv += fmt::format(",{}", std::round(1e6 * p.position_mm[i]) / 1e6);
-    for (int i = 0; i < 3; ++i) csv += fmt::format(",{:.4f}", p.correction_um[i]);
-    for (int i = 0; i < 3; ++i) csv += fmt::format(",{:.4f}", p.sigma_um[i]);
-    for (const auto* list : {&p.measured_um, &p.remains_um}) {
-      for (const auto& v : *list) csv += v ? fmt::format(",{:.4f}", *v) : std::string(",");
-    }
+    const auto add = [&](std::optional<double> v) {
+      csv += v && std::isfinite(*v) ? fmt::format(",{:.4f}", *v) : std::string(",");
+    };
+    for (const double v : p.correction_um) add(v);
+    for (const double v : p.sigma_um) add(v);
+    for (const auto& v : p.measured_um) add(v);
+    for (const auto& v : p.remains_um) add(v);
     csv += '\n';
   }
   plan.files.push_back({"compensation_points.csv", "Corrections at the measured points",
                         fmt::format("Correction to add to the command: minus the deviation, {}.", relative), csv});
-  MeasuredBox measured{plan.points.front().position_mm, plan.points.front().position_mm};
+  MeasuredBox measured{plan.points.front().position_mm, plan.points.front().position_mm, {}};
   for (const CompensationPoint& p : plan.points) {
+    for (std::size_t i = 0; i < 3; ++i) measured.displacement[i] = measured.displacement[i] || p.measured_um[i];
     measured.low_mm = measured.low_mm.cwiseMin(p.position_mm);
     measured.high_mm = measured.high_mm.cwiseMax(p.position_mm);
   }
@@ -342,6 +348,11 @@ void makeFiles(const MachineDescription& machine, const PreparedModel& prepared,
           fmt::format("nothing was measured along {}: no component error of that axis is stated, and there is no screw "
                       "compensation for it.",
                       axis));
+      continue;
+    }
+    if (!measured.displacement[static_cast<std::size_t>(axis[0] - 'X')]) {
+      plan.warnings.push_back(fmt::format(
+          "E{0} was not measured: no correction of {0} is stated, and there is no screw compensation for it.", axis));
       continue;
     }
     plan.files.push_back(
@@ -376,7 +387,7 @@ void addNumbers(CompensationPlan& plan) {
   double before = 0.0, after = 0.0, count = 0.0, sigma = 0.0, sigma_count = 0.0;
   for (CompensationPoint& p : plan.points) {
     finishPoint(p);
-    plan.largest_um = std::max(plan.largest_um, p.correction_um.norm());
+    plan.largest_um = std::max(plan.largest_um, p.correction_um.array().isFinite().select(p.correction_um, 0.0).norm());
     for (std::size_t i = 0; i < 3; ++i) {
       if (!p.measured_um[i]) continue;
       before += *p.measured_um[i] * *p.measured_um[i];

@@ -37,7 +37,8 @@ struct CompensationRequest {
   void validate() const;
 };
 
-/// One measured point. Components that were not measured have no value; a prediction always has one.
+/// One measured point. Components that were not measured have no value; a prediction has one wherever the component was
+/// measured at this point (completed simulation) or anywhere (models of the table), else it is NaN.
 struct CompensationPoint {
   std::string point;
   Eigen::Vector3d position_mm = Eigen::Vector3d::Zero();

@@ -93,9 +93,9 @@ artefacts[].hole_diameter_mm | - | above 0 | hole bar: diameter of its holes
 artefacts[].balls[].id | required | unique | ball
 artefacts[].balls[].diameter_mm | required | above 0 | calibrated diameter
 artefacts[].balls[].certified_mm | required | three numbers | calibrated centre, from the first ball
-artefacts[].expansion_um_per_m_K | - | | coefficient of thermal expansion
+artefacts[].expansion_um_per_m_K | - | -5 ... 100 | coefficient of thermal expansion
 artefacts[].expansion_uncertainty_um_per_m_K | 0: taken as exact | 0 or more | its standard uncertainty
-artefacts[].temperature_degC | - | | temperature of the artefact where the log has none
+artefacts[].temperature_degC | - | -20 ... 80 | temperature of the artefact where the log has none
 artefacts[].temperature_uncertainty_K | 0: taken as exact | 0 or more | standard uncertainty of its temperature
 artefacts[].certificate_uncertainty_um | 0 | 0 or more | standard uncertainty of a calibrated position
 styli[].id | required | unique | stylus
@@ -227,6 +227,7 @@ s_per_unit {s} | 1 | above 0 | unit of the printed times
 touch_interval_s | 3 | above 0 | time between touches that are printed without a time
 cycle_interval_s | 0 | above 0 | time between cycles that are printed without a time
 c_sign | 1 | | sign that the control gives to the rotary axis
+clock | running | `running`, `day_of_month` | whether the printed time begins again on the first of each month
 decimal_comma | false | true, false | numbers have a decimal comma)"},
     {"pattern", "pattern.json", "spindrift-fiducial-pattern",
      "Artwork of a fiducial. The origin is the centre of the ellipse of the first row and column, X along increasing "
@@ -636,6 +637,12 @@ profiler.artefacts[].bumps[].x_mm | required | | place of a bump
 profiler.artefacts[].bumps[].y_mm | required | | place of a bump
 profiler.artefacts[].bumps[].radius_mm | required | above 0 | its radius
 profiler.artefacts[].bumps[].height_mm | required | | its height
+profiler.artefacts[].bending.along_mm | 0 | | change of shape as the machine warms up: curvature along Y, over half the length
+profiler.artefacts[].bending.across_mm | 0 | | curvature across, over half the width
+profiler.artefacts[].bending.twist_mm | 0 | | twist at the corners
+profiler.artefacts[].bending.held_at | 0 | -1 ... 1 | place along Y where it is held
+profiler.artefacts[].bending.skew | 0 | | part of the curvature that grows along Y
+profiler.artefacts[].bending.time_constant_s | 7200 | above 0 | time constant of the change
 sensors[].name | required | `T_NAME_degC` | column of the log
 sensors[].place | required | such as `column front`, `front bearing`, `room` | body that it sits on; `@0.5` says where along it
 sensors[].noise_K | 0.04 | 0 or more | noise

@@ -267,7 +267,7 @@ HeatmapResult heatmapOf(const Campaign& campaign, const ObservationSet& observat
     }
   }
   result.field = options.higher_order ? tableField(result.fit, *result.order->model, grid, options.component)
-                                      : tableField(result.fit, result.fit.model(), grid, options.component);
+                                      : tableField(result.fit, result.fit.predictingModel(), grid, options.component);
   result.determined =
       std::all_of(result.field.sigma.begin(), result.field.sigma.end(), [](double s) { return std::isfinite(s); });
   if (!result.determined) {

@@ -138,7 +138,7 @@ void showNineParameters(ReviewPicture& picture, const ObservationSet& observatio
       picture.message = "The machine has no X or no Y axis, so there is no heat map.";
       return;
     }
-    picture.field = tableField(fit, fit.model(), *grid, request.component);
+    picture.field = tableField(fit, fit.predictingModel(), *grid, request.component);
     picture.field->markers.clear();
     const auto& s = picture.field->sigma;
     if (std::none_of(s.begin(), s.end(), [](double v) { return std::isfinite(v); })) {

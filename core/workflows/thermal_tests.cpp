@@ -133,7 +133,8 @@ Iso230Result evaluateIso230Test(const TimeSeries& whole, const Iso230Request& re
     curves.push_back(std::move(curve));
   }
   if (request.test == "etve") {
-    requireSpindleAtRest(series);
+    const std::vector<std::string> at_rest = requireMachineAtRest(series);
+    result.notes.insert(result.notes.end(), at_rest.begin(), at_rest.end());
     std::string ambient = request.ambient;
     for (const Signal& s : series.signals) {
       if (ambient.empty() && OperatingLog::isTemperature(s.name) && readSensorRole(s.name) == SensorRole::Room) {
@@ -220,9 +221,10 @@ std::string Iso230Result::summary() const {
     text += fmt::format("ETVE over {:.1f} h, ambient range {:.2f} K\n", etve->duration_s / 3600.0,
                         etve->temperature_range_K);
     for (const EtveComponent& c : etve->components) {
-      text += fmt::format("  {}: range {}, per K {:.3g}, slope {}\n", c.name,
-                          withUncertainty(c.range, c.range_sigma, c.unit), c.range_per_K,
-                          withUncertainty(c.slope_per_K, c.slope_sigma, c.unit + "/K"));
+      text +=
+          fmt::format("  {}: range {}, per K {}, slope {}\n", c.name, withUncertainty(c.range, c.range_sigma, c.unit),
+                      std::isfinite(c.range_per_K) ? fmt::format("{:.3g}", c.range_per_K) : "not determined",
+                      withUncertainty(c.slope_per_K, c.slope_sigma, c.unit + "/K"));
     }
   }
   if (spindle) {

@@ -342,6 +342,10 @@ CompensateResult compensateLog(const TimeSeries& series, const ThermalModel& mod
   return result;
 }
 
+bool CompensateResult::Output::worse() const noexcept {
+  return std::isfinite(unseen.reduction_percent) ? unseen.rms_after >= unseen.rms_before : rms_after >= rms_before;
+}
+
 nlohmann::json CompensateResult::json() const {
   nlohmann::json out = {
       {"cycle_s", cycle_s},

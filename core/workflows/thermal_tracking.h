@@ -76,6 +76,8 @@ struct CompensateResult {
       double reduction_percent = std::numeric_limits<double>::quiet_NaN();
     };
     Unseen unseen;
+    /// No better than left alone: where nothing trained the model, or over all rows if there are no such.
+    [[nodiscard]] bool worse() const noexcept;
     double largest = 0.0;
     std::vector<double> compensation;  ///< minus the predicted deviation, to be added to the command
   };

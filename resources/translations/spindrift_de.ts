@@ -6336,10 +6336,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>die Maschinendatei gibt kein Festlager für {} an; die Ausdehnung des Kugelgewindetriebs wird dort von 0 mm aus gezählt, was die Spindeldrift um Ausdehnung mal Abstand zum wahren Lager verschiebt.</translation>
     </message>
     <message>
-        <source>the machine file states no uncertainty of {} of {}: taken as exact, though up to {:.1f} µm/m were taken off.</source>
-        <translation>die Maschinendatei gibt keine Unsicherheit für {} von {} an: als exakt angenommen, obwohl bis zu {:.1f} µm/m abgezogen wurden.</translation>
-    </message>
-    <message>
         <source>the machine was homed anew: a measuring cycle has to look at its zero</source>
         <translation>die Maschine wurde neu referenziert: ein Messzyklus muss ihren Nullpunkt prüfen</translation>
     </message>
@@ -9592,6 +9588,54 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>none (follows at once)</source>
         <translation>keine (folgt sofort)</translation>
+    </message>
+    <message>
+        <source>E{0} was not measured: no correction of {0} is stated, and there is no screw compensation for it.</source>
+        <translation>E{0} wurde nicht gemessen: Für {0} wird keine Korrektur angegeben, und es gibt dafür keine Spindelsteigungskompensation.</translation>
+    </message>
+    <message>
+        <source>a number from -1 to 1</source>
+        <translation>eine Zahl von -1 bis 1</translation>
+    </message>
+    <message>
+        <source>a number from {:g} to {:g}</source>
+        <translation>eine Zahl von {:g} bis {:g}</translation>
+    </message>
+    <message>
+        <source>a position to be kept is listed twice; allowed: each once.</source>
+        <translation>Eine beizubehaltende Position ist doppelt angegeben; erlaubt: jede einmal.</translation>
+    </message>
+    <message>
+        <source>the expansion coefficient of {} is not stated: its lengths against the certificate are not corrected for {:.1f} K.</source>
+        <translation>Der Ausdehnungskoeffizient von {} ist nicht angegeben: Seine Längen gegen das Zertifikat sind nicht um {:.1f} K korrigiert.</translation>
+    </message>
+    <message>
+        <source>the log has no spindle speed: that the machine was at rest could not be checked.</source>
+        <translation>Das Protokoll enthält keine Spindeldrehzahl: Ob die Maschine stillstand, konnte nicht geprüft werden.</translation>
+    </message>
+    <message>
+        <source>the machine file states no uncertainty of {} of {}: taken as exact, though lengths were corrected by up to {:.1f} µm/m.</source>
+        <translation>Die Maschinendatei nennt keine Unsicherheit für {} von {}: als exakt angenommen, obwohl Längen um bis zu {:.1f} µm/m korrigiert wurden.</translation>
+    </message>
+    <message>
+        <source>{} is {:g} at {:g} s: an ETVE test is of a machine at rest, and what its axes heat counts as environment.</source>
+        <translation>{} ist {:g} bei {:g} s: Eine ETVE-Prüfung gilt einer ruhenden Maschine, und was ihre Achsen erwärmen, zählt als Umgebung.</translation>
+    </message>
+    <message>
+        <source>{} {} is not allowed; allowed: {:g} to {:g} mm/min.</source>
+        <translation>{} {} ist nicht erlaubt; erlaubt: {:g} bis {:g} mm/min.</translation>
+    </message>
+    <message>
+        <source>{}{:g} is not known here</source>
+        <translation>{}{:g} ist hier nicht bekannt</translation>
+    </message>
+    <message>
+        <source>The options ask for something that this version of the library does not know; allowed: 0 there.</source>
+        <translation>Die Optionen verlangen etwas, das diese Version der Bibliothek nicht kennt; erlaubt: dort 0.</translation>
+    </message>
+    <message>
+        <source>The virtual profiler takes more than a million points per mm; allowed: fewer points in a profile or profiles further apart.</source>
+        <translation>Der virtuelle Profilsensor nimmt mehr als eine Million Punkte je mm auf; erlaubt: weniger Punkte im Profil oder größere Profilabstände.</translation>
     </message>
 </context>
 <context>

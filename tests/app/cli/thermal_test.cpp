@@ -330,6 +330,27 @@ TEST_F(Thermal, CompensateSaysWhenItsModelWasNotGoodEnough) {
   EXPECT_EQ(runCli({"thermal", "compensate", log.string(), "--model", good}).status, 0);
 }
 
+TEST_F(Thermal, CompensationIsJudgedOnRowsThatTrainedNothing) {
+  // After training the growth has the other sign but is small: over all rows the model still seems to help.
+  const std::string model = (folder / "model.json").string();
+  auto words = identify();
+  words.insert(words.end(), {"--model-out", model});
+  ASSERT_EQ(runCli(words).status, 0);
+  auto lines = linesOf(log);
+  const double to_s = nlohmann::json::parse(textOf(model)).at("train_s").at(1).get<double>();
+  for (std::size_t k = 1; k < lines.size(); ++k) {
+    if (std::stod(lines[k]) < to_s) continue;
+    const std::size_t at = lines[k].rfind(',') + 1;
+    lines[k] = lines[k].substr(0, at) + std::to_string(-0.05 * std::stod(lines[k].substr(at)));
+  }
+  writeLines(log, lines);
+  const Outcome outcome = runCli({"thermal", "compensate", log.string(), "--model", model, "--json", "-"});
+  const nlohmann::json output = outcome.json().at("outputs").at(0);
+  ASSERT_LT(output.at("unseen").at("reduction_percent").get<double>(), 0.0);
+  ASSERT_GT(output.at("reduction_percent").get<double>(), 0.0);
+  EXPECT_EQ(outcome.status, 1);
+}
+
 TEST_F(Thermal, CompensationIsMinusThePredictedDeviation) {
   const std::string model = (folder / "model.json").string();
   const std::string out = (folder / "out.csv").string();

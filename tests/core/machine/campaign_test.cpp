@@ -52,8 +52,8 @@ TEST(Campaign, ALogWhoseRecordingHasJustBegunIsNoneYet) {
 TEST(Campaign, ALinkToAFileElsewhereIsNotFollowed) {
   const testing::TempFolder folder;
   folder.write("mine/secret.csv", "time_s,spindle_rpm\n0,0\n");
-  for (const std::string name :
-       {"log.csv", "machine.json", "campaign.json", "observations.csv", "observations.cov.csv"}) {
+  for (const std::string name : {"log.csv", "machine.json", "campaign.json", "observations.csv", "observations.cov.csv",
+                                 "pattern.json", "warm_up.csv"}) {
     const std::filesystem::path campaign = folder / ("c_" + name);
     folder.write("c_" + name + "/campaign.json",
                  R"({"format":"spindrift-campaign","version":1,"name":"c","start_utc":"2026-01-31T08:00:00Z"})");

@@ -84,6 +84,9 @@ TEST(MeasuringPoints, CandidatesOnALineAreDegenerate) {
 TEST(MeasuringPoints, RefusesWhatCannotBe) {
   EXPECT_THROW((void)chooseMeasuringPoints(lattice(3, 2), tableOptions(2, PlacementCriterion::D), {}), InputError);
   EXPECT_THROW((void)chooseMeasuringPoints(lattice(3, 2), tableOptions(7, PlacementCriterion::D), {}), InputError);
+  PlacementOptions twice = tableOptions(4, PlacementCriterion::D);
+  twice.fixed = {1, 1};
+  EXPECT_THROW((void)chooseMeasuringPoints(lattice(3, 2), twice, {}), InputError);
 }
 
 double nearest(const std::vector<Eigen::Vector3d>& candidates, const PlacementResult& result) {

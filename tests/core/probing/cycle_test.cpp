@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <Eigen/Cholesky>
@@ -443,7 +444,34 @@ TEST(BallCycle, AnUncertaintyThatIsNotStatedIsSaid) {
   EXPECT_EQ(
       result.warnings.back(),
       "the machine file states no uncertainty of the expansion coefficient and the temperature of balls: taken as "
-      "exact, though up to 46.0 µm/m were taken off.");
+      "exact, though lengths were corrected by up to 46.0 µm/m.");
+}
+
+TEST(HoleCycle, WhatTheLengthsRestOnWithoutUncertaintyIsSaid) {
+  const auto warningsOf = [](const std::string& keys) {
+    const MachineDescription m = machineFrom(
+        replaced(holeMachineText(), "\"hole_diameter_mm\":12",
+                 "\"hole_diameter_mm\":12,\"certificate_uncertainty_um\":0.5,\"temperature_degC\":25" + keys));
+    const VirtualRun run = runCycles(m, 2, {}, 2);
+    return evaluateHoleCycles(run.list, m, m.artefacts.front(), {}, nullptr).warnings;
+  };
+  EXPECT_THAT(warningsOf(",\"expansion_um_per_m_K\":11.5"),
+              ::testing::Contains("the machine file states no uncertainty of the expansion coefficient and the "
+                                  "temperature of bar: taken as exact, though lengths were corrected by up to 57.5 "
+                                  "µm/m."));
+  EXPECT_THAT(warningsOf(""), ::testing::Contains(::testing::HasSubstr("not corrected for 5.0 K")));
+}
+
+TEST(HoleCycle, OneTemperatureForAllCyclesContradictsNoGrowth) {
+  const MachineDescription m =
+      machineFrom(replaced(holeMachineText(), "\"hole_diameter_mm\":12",
+                           "\"hole_diameter_mm\":12,\"expansion_um_per_m_K\":11.5,\"temperature_degC\":20"));
+  const VirtualRun run = runCycles(
+      m, 3, {}, 9, [&](int k, Random&) { return std::vector<double>{0, 0, 0, 0, 0, 0, 0, 0, k == 0 ? 0.0 : 70.0}; });
+  const HoleCycleResult result = evaluateHoleCycles(run.list, m, m.artefacts.front(), {}, nullptr);
+  EXPECT_NEAR(result.parameters[2][8].value, 70.0, 3.0);
+  EXPECT_TRUE(result.growth.empty()) << "nothing is known of a growth";
+  EXPECT_TRUE(result.warnings.empty()) << result.warnings.front();
 }
 
 TEST(HoleCycle, LengthsAgainstTheCertificateKnowWhatTheyRestOn) {

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <map>
 
@@ -172,6 +173,57 @@ TEST(CycleProgram, TheMasksOfHeidenhainPrintWhatIsRead) {
   EXPECT_EQ(t.approach.x(), -1.0);
 }
 
+TEST(CycleProgram, ANameCommandsNothing) {
+  for (const ProgramDialect dialect : every_dialect) {
+    Written w = write(true, dialect);
+    Artefact& artefact = w.machine.artefacts.front();
+    ProgramOptions options;
+    options.dialect = dialect;
+    const CyclePlan plan = planCycle(w.machine, artefact, w.plan_options);
+    artefact.id = "bar) M3 S9000 (x\nG1 X-5 M8 ;\xC3\xA4" + std::string(500, 'b');
+    const std::string text = writeProgram(plan, w.machine, artefact, w.plan_options, options);
+    EXPECT_EQ(text.find("bar)"), std::string::npos);
+    EXPECT_EQ(text.find("\nG1 X-5"), std::string::npos);
+    EXPECT_EQ(text.find('\xC3'), std::string::npos) << "a control shows no UTF-8";
+    EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), std::count(w.text.begin(), w.text.end(), '\n'));
+    EXPECT_TRUE(checkProgram(text, w.machine, artefact, w.check_options).good());
+  }
+}
+
+TEST(CycleProgram, TheCheckTakesNothingThatStartsSomething) {
+  for (const ProgramDialect dialect : every_dialect) {
+    const Written w = write(true, dialect);
+    const auto good = [&](const std::string& text) {
+      return checkProgram(text, w.machine, w.machine.artefacts.front(), w.check_options).good();
+    };
+    const bool heidenhain = dialect == ProgramDialect::Heidenhain;
+    const std::string rapid = heidenhain ? " R0 FMAX M91" : dialect == ProgramDialect::Siemens ? "SUPA G0 X" : "\nG0 X";
+    const auto with = [&](const std::string& words) {
+      return withReplaced(w.text, rapid,
+                          heidenhain              ? " R0 FMAX M91 " + words
+                          : rapid.front() == '\n' ? "\n" + words + " G0 X"
+                                                  : words + " SUPA G0 X");
+    };
+    ASSERT_TRUE(good(with("")));
+    EXPECT_FALSE(good(with("M3"))) << "the spindle with the probe in it";
+    EXPECT_FALSE(good(with("M8"))) << "a move beside an M code is a move";
+    EXPECT_FALSE(good(with("S9000")));
+    EXPECT_FALSE(good(with("T5")));
+  }
+}
+
+TEST(CyclePlan, AFeedThatBreaksTheProbeIsRefused) {
+  CyclePlanOptions options;
+  options.touch_feed_mm_min = 1e9;
+  EXPECT_THROW(options.validate(), InputError);
+  options.touch_feed_mm_min = 0.001;  // would be written as F0
+  EXPECT_THROW(options.validate(), InputError);
+  options = {};
+  options.guarded_feed_mm_min = 1e12;
+  EXPECT_THROW(options.validate(), InputError);
+  EXPECT_NO_THROW(CyclePlanOptions{}.validate());
+}
+
 TEST(CycleProgram, TravelIsChecked) {
   const MachineDescription small =
       machineFrom(withReplaced(holeMachineText(), "\"travel_mm\":[0,520]", "\"travel_mm\":[0,380]"));
@@ -222,6 +274,35 @@ TEST(PrintedText, ComesBackAsTouches) {
       printed.touches.checkAgainst(m);
     }
   }
+}
+
+TEST(PrintedText, AClockThatBeginsAgainWithTheMonthGoesOn) {
+  const MachineDescription m = machineFrom(holeMachineText());
+  ProgramOptions options;
+  options.dialect = ProgramDialect::Siemens;
+  const JsonNode pattern =
+      JsonNode::parse(printedTextTemplate(m, m.artefacts.front(), options).dump(), "template.json");
+  const auto line = [](int touch, double s) {
+    return fmt::format("T A1 B1 C0 D{} X15 Y20 Z47 I1 J0 K0 S{}\n", touch, s);
+  };
+  // 31 December, 23:59:50, and ten seconds past midnight; then 28 February.
+  const PrintedText text = readPrintedText(
+      line(0, 31 * 86400 + 86390) + line(1, 86400 + 10) + line(2, 28 * 86400 + 86399) + line(3, 86400 + 1), "t.txt",
+      pattern, m);
+  ASSERT_EQ(text.touches.touches.size(), 4U);
+  EXPECT_EQ(text.touches.touches[1].time_s, 20.0);
+  EXPECT_EQ(text.touches.touches[3].time_s - text.touches.touches[2].time_s, 2.0);
+}
+
+TEST(PrintedText, ATouchThatIsCutShortIsCounted) {
+  const MachineDescription m = machineFrom(holeMachineText());
+  const JsonNode pattern = JsonNode::parse(printedTextTemplate(m, m.artefacts.front(), {}).dump(), "template.json");
+  const PrintedText text = readPrintedText(
+      "HELLO\nT A1 B1 C0 D0 X15 Y20 Z47 I1 J0 K0 S1\nT A1 B1 C0 D1 X1\nT A1 B1\nBYE\n", "t.txt", pattern, m);
+  EXPECT_EQ(text.touches.touches.size(), 1U);
+  EXPECT_EQ(text.ignored_lines, 4);
+  EXPECT_EQ(text.cut_lines, 2);
+  EXPECT_EQ(text.first_cut_line, 3U);
 }
 
 TEST(PrintedText, BadTemplatesAndLinesAreTold) {

@@ -137,6 +137,29 @@ TEST(Registration, StatedCovarianceHoldsForWhiteNoise) {
   EXPECT_NEAR(c.ratio, 1.0, 0.08);
 }
 
+/// Half a millimetre from point to point on slopes up to 45 degrees: the relief within a cell is many times the noise.
+TEST(Registration, CoarseScansOfSteepReliefPromiseNoMoreThanTheyHold) {
+  const Height steep = [](double x, double y) {
+    return 2.0 * std::sin(2.0 * M_PI * x / 15.0) * std::cos(2.0 * M_PI * y / 12.0);
+  };
+  Grid grid;
+  grid.profiles = grid.points = 60;
+  grid.spacing_x = 0.5;
+  Random random(11);
+  Eigen::Matrix<double, 6, 1> squares = Eigen::Matrix<double, 6, 1>::Zero();
+  constexpr int runs = 16;
+  for (int run = 0; run < runs; ++run) {
+    Random own = random.split();
+    const PointCloud target = scan(steep, RigidTransform(), grid, 1e-3, own);
+    const PointCloud source = scan(steep, RigidTransform(), grid, 1e-3, own);
+    const RegistrationResult r = registerClouds(source, target);
+    ASSERT_TRUE(r.usable()) << r.message;
+    const auto e = errorOf(r, RigidTransform());
+    for (int i = 0; i < 6; ++i) squares[i] += std::pow(e[i] / r.standardUncertainty(i), 2) / runs;
+  }
+  for (int i = 0; i < 6; ++i) EXPECT_LT(std::sqrt(squares[i]), 1.5) << i;
+}
+
 TEST(Registration, StatedCovarianceHoldsForCorrelatedNoise) {
   const Coverage c = coverage(200, true, 0.0, 12);
   EXPECT_NEAR(c.components, 0.95, 0.03);

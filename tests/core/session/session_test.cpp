@@ -515,6 +515,23 @@ TEST(Session, ALinkInPlaceOfItsCampaignsIsRefused) {
   EXPECT_EQ(readFile(folder / "mine/work/keep.txt"), "x");
 }
 
+TEST(Session, ALinkInPlaceOfAFileOfItsOwnIsRefusedBeforeItIsOpened) {
+  for (const char* name : {"lock", "session.sqlite", "session.sqlite-wal", "removed"}) {
+    const TempFolder folder;
+    folder.write("mine/keep.txt", "precious");
+    { Session session = Session::create(folder / "s"); }
+    std::filesystem::remove(folder / "s" / name);
+    std::filesystem::create_symlink(folder / "mine/keep.txt", folder / "s" / name);
+    try {
+      (void)Session::open(folder / "s");
+      ADD_FAILURE() << name << " was followed";
+    } catch (const InputError& error) {
+      EXPECT_THAT(error.what(), HasSubstr("leads out of its folder by a link"));
+    }
+    EXPECT_EQ(readFile(folder / "mine/keep.txt"), "precious") << name;
+  }
+}
+
 TEST(Session, AFileThatIsChangedOnTheDiskMakesResultsOutdatedUntilItIsPutBack) {
   const TempFolder folder;
   JobContext job;

@@ -17,23 +17,8 @@
 namespace spindrift {
 namespace {
 
-/// How an artefact bends: curved along y and across, twisted, held at one place.
-struct Bending {
-  double along_mm = 0.0;   ///< over half its length
-  double across_mm = 0.0;  ///< over half its width
-  double twist_mm = 0.0;
-  double held_at = 0.0;  ///< place along y where it is held, -1 to 1: there it neither moves nor turns
-  double skew = 0.0;     ///< part of the curvature that grows along y
-
-  [[nodiscard]] double height_mm(const ArtefactSurface& surface, double x_mm, double y_mm) const {
-    const double s = 2.0 * x_mm / surface.size_mm.x() - 1.0;
-    const double t = 2.0 * y_mm / surface.size_mm.y() - 1.0 - held_at;
-    return along_mm * (t * t + skew * t * t * t) + across_mm * s * s + twist_mm * s * t;
-  }
-};
-
-Bending someBending(Random& random, double size_mm) {
-  Bending b;
+ArtefactBending someBending(Random& random, double size_mm) {
+  ArtefactBending b;
   b.along_mm = size_mm * (random.uniform() < 0.5 ? -1.0 : 1.0) * random.uniform(0.5, 1.5);
   b.across_mm = random.normal(0.0, 0.1 * size_mm);
   b.twist_mm = random.normal(0.0, 0.2 * size_mm);
@@ -75,14 +60,6 @@ VirtualScanCampaign plan(const std::string& model, Random& random) {
   return c;
 }
 
-/// Makes the artefacts of a campaign bend from its first cycle on.
-void bend(VirtualScanCampaign& campaign, const Bending& bending) {
-  campaign.bending = [bending](const VirtualArtefact& a, double time_s) -> std::function<double(double, double)> {
-    const double part = 1.0 - std::exp(-time_s / 7200.0);
-    return [=, surface = a.surface](double x, double y) { return part * bending.height_mm(surface, x, y); };
-  };
-}
-
 /// Error of the deviation of a scan over its standard uncertainty, by component; NaN where it is not observed.
 std::array<double, 6> standardisedErrors(const VirtualScanCampaign& campaign, const ScanEvaluation& e,
                                          const ScanCapture& capture, const RegistrationResult& r) {
@@ -110,8 +87,8 @@ Tally statedAgainstTrue(const std::string& model, double size_mm, int campaigns,
   Tally tally;
   for (int n = 0; n < campaigns; ++n) {
     VirtualScanCampaign c = plan(model, random);
-    const Bending bending = someBending(random, size_mm);
-    if (size_mm > 0.0) bend(c, bending);
+    const ArtefactBending bending = someBending(random, size_mm);
+    if (size_mm > 0.0) c.bending["A1"] = bending;
     const testing::TempFolder folder;
     JobContext job;
     writeVirtualScanCampaign(c, folder.path(), random.bits(), job);
@@ -171,8 +148,7 @@ TEST_P(BendingScans, WithoutBendingNothingIsSaid) {
 TEST_P(BendingScans, TheChangeIsFoundAndSaid) {
   Random random(6);
   VirtualScanCampaign c = plan(GetParam(), random);
-  const Bending bending{0.012, 0.001, 0.002, 0.9, 0.0};
-  bend(c, bending);
+  c.bending["A1"] = {.along_mm = 0.012, .across_mm = 0.001, .twist_mm = 0.002, .held_at = 0.9};
   const testing::TempFolder folder;
   JobContext job;
   writeVirtualScanCampaign(c, folder.path(), 4, job);

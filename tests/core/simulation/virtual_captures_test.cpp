@@ -11,6 +11,7 @@
 #include "core/base/error.h"
 #include "core/imaging/evaluate_fiducials.h"
 #include "core/machine/campaign.h"
+#include "core/scanning/scan_evaluation.h"
 #include "core/simulation/virtual_campaign.h"
 #include "tests/support/temp_folder.h"
 
@@ -90,6 +91,29 @@ TEST(VirtualCaptures, ACancelledCampaignLeavesNothingBehind) {
   EXPECT_NO_THROW((void)Campaign::read(folder / "campaign")) << "the same folder can be used again";
 }
 
+/// A scenario can bend its artefacts: the change of shape is found in the scans and in none without it.
+TEST(VirtualCaptures, AnArtefactOfAScenarioBends) {
+  for (const bool bends : {false, true}) {
+    nlohmann::json json = scenarioJson("scans");
+    if (bends)
+      json["profiler"]["artefacts"][0]["bending"] = {
+          {"along_mm", 0.02}, {"twist_mm", 0.004}, {"held_at", 0.5}, {"time_constant_s", 3600.0}};
+    const VirtualCampaign made = simulateCampaign(parsed(json), std::nullopt, {});
+    const testing::TempFolder folder;
+    writeCampaign(made, folder / "campaign");
+    JobContext job;
+    const ScanEvaluation e = evaluateScanCampaign(Campaign::read(folder / "campaign"), "", job);
+    const std::string bent = json["profiler"]["artefacts"][0]["point"];
+    int told = 0;
+    for (const ScanResult& s : e.scans) {
+      if (s.reference) continue;
+      EXPECT_EQ(s.registration.free_form.has_value(), bends && s.capture.artefact == bent) << s.capture.cloud;
+      ++told;
+    }
+    EXPECT_GT(told, 0);
+  }
+}
+
 TEST(VirtualCaptures, WrongScenariosAreRefused) {
   nlohmann::json json = scenarioJson("fiducials");
   json["microscope"]["fiducials"] = {"F9"};
@@ -100,6 +124,17 @@ TEST(VirtualCaptures, WrongScenariosAreRefused) {
   json = scenarioJson("scans");
   json["profiler"]["artefacts"][0]["point"] = "A9";
   expectRefused(json, "A9");
+  for (const auto& [path, value] : {std::pair{"/profiler/profile_spacing_mm", nlohmann::json(1e-9)},
+                                    std::pair{"/machine/profiler/profile_points", nlohmann::json(2000000000)}}) {
+    json = scenarioJson("scans");
+    json[nlohmann::json::json_pointer(path)] = value;
+    expectRefused(json, "a million points per mm");
+  }
+  json = scenarioJson("scans");
+  json["profiler"]["artefacts"][0]["bending"] = {{"held_at", 2.0}};
+  expectRefused(json, "from -1 to 1");
+  json["profiler"]["artefacts"][0]["bending"] = {{"time_constant_s", 0.0}};
+  expectRefused(json, "time_constant_s");
   json = scenarioJson("scans");
   json["machine"]["points"][1]["x_mm"] = 1900.0;
   expectRefused(json, "along Y");

@@ -376,6 +376,26 @@ TEST_F(CompensatorInC, BoundsTheGainsThatAreTaken) {
   EXPECT_NE(load(), "");
 }
 
+TEST_F(CompensatorInC, WhatALaterVersionAsksForIsNotLeftOutSilently) {
+  struct Later {
+    spindrift_compensator_options known;
+    double newer;
+  } later{options_, 0.0};
+  later.known.struct_size = sizeof later;
+  const auto loads = [&] {
+    char message[300] = "";
+    spindrift_compensator* c =
+        spindrift_compensator_load_with((folder_ / "model.json").c_str(), &later.known, message, sizeof message);
+    spindrift_compensator_free(c);
+    return c != nullptr ? std::string("loaded") : std::string(message);
+  };
+  EXPECT_EQ(loads(), "loaded");
+  later.newer = 3.0;
+  EXPECT_NE(loads().find("does not know"), std::string::npos) << loads();
+  later.known.struct_size = static_cast<std::size_t>(-1);
+  EXPECT_NE(loads().find("struct_size"), std::string::npos) << loads();
+}
+
 TEST_F(CompensatorInC, ZeroCanBeAskedFor) {
   const double late[2] = {0.0, 0.5};
   ASSERT_EQ(load(), "");

@@ -2,12 +2,15 @@
 // What a correction says of itself: uncertainty, what it does where nothing was fitted, what was not measured.
 #include "core/workflows/compensation_workflow.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "core/base/random.h"
+#include "core/workflows/fit_campaign.h"
+#include "tests/support/temp_folder.h"
 
 namespace spindrift {
 namespace {
@@ -130,6 +133,102 @@ TEST(CompensationPlan, StatesNothingOfAnAxisThatWasNotMeasured) {
   EXPECT_THAT(names, Contains("linuxcnc_X.comp"));
   EXPECT_THAT(names, Not(Contains("linuxcnc_Z.comp"))) << "a screw table is a statement, too";
   EXPECT_THAT(plan.warnings, Contains(HasSubstr("nothing was measured along Z")));
+}
+
+TEST(Heatmap, OfARejectedModelCarriesTheLackOfFit) {
+  const Campaign campaign = campaignOf(6.0, false, 1);
+  HeatmapOptions options;
+  options.component = Component::EZ;
+  options.nx = options.ny = 5;
+  const HeatmapResult map = heatmapOf(campaign, *campaign.observations, options);
+  ASSERT_TRUE(map.determined);
+  ASSERT_GT(map.fit.lack_of_fit_um.z(), 1.0);
+  for (const double sigma : map.field.sigma) EXPECT_GT(sigma, map.fit.lack_of_fit_um.z());
+}
+
+TEST(CompensationPlan, WhatScattersAboutOneHeightIsNoExtentAlongZ) {
+  Campaign campaign = campaignOf(0.0, false, 5);
+  Random random(5);
+  for (Observation& o : campaign.observations->rows) o.position_mm.z() = -3.0 + 0.005 * random.uniform(-1.0, 1.0);
+  const CompensationPlan plan = planOf(campaign, CompensationSource::NineParameters);
+  EXPECT_THAT(plan.warnings, Contains(HasSubstr("nothing was measured along Z")));
+  for (const CompensationFile& f : plan.files) {
+    EXPECT_NE(f.name, "linuxcnc_Z.comp");
+    EXPECT_NE(f.name, "siemens_Z_eec.ini");
+  }
+}
+
+/// Growth of the spindle in Z at four points, which the simulation lacks; X and Y were not measured.
+Campaign heightsOnly(const testing::TempFolder& folder) {
+  Campaign campaign = campaignOf(0.0, false, 6);
+  std::vector<double> time_s, rpm;
+  for (int k = 0; k <= 600; ++k) {
+    time_s.push_back(30.0 * k);
+    rpm.push_back(k >= 60 && k < 400 ? 4000.0 : 0.0);
+  }
+  campaign.log = OperatingLog(time_s);
+  campaign.log->setSignal("spindle_rpm", rpm);
+  Random random(7);
+  ObservationSet set;
+  std::string simulated = "time_s,point,component,predicted\n";
+  for (int state = 0; state < 20; ++state) {
+    const double t = 900.0 * state;
+    const double grown = t < 1800.0    ? 0.0
+                         : t < 12000.0 ? 9.0 * (1.0 - std::exp(-(t - 1800.0) / 2400.0))
+                                       : 9.0 * std::exp(-(t - 12000.0) / 2400.0);
+    for (int i = 0; i < 4; ++i) {
+      Observation o;
+      o.time_s = t;
+      o.state = "M" + std::to_string(state);
+      o.point = "F" + std::to_string(i + 1);
+      o.position_mm = {20.0 + 200.0 * (i % 2), 15.0 + 80.0 * (i / 2), 50.0 * i};
+      o.component = Component::EZ;
+      o.sigma = 0.3;
+      o.value = grown + random.normal(0, 0.3);
+      simulated += fmt::format("{},{},EZ,0\n", t, o.point);
+      set.rows.push_back(o);
+    }
+  }
+  campaign.observations = set;
+  folder.write("simulation.csv", simulated);
+  campaign.folder = folder.path();
+  campaign.simulation = "simulation.csv";
+  return campaign;
+}
+
+TEST(CompensationPlan, StatesNothingOfADisplacementThatWasNotMeasured) {
+  const testing::TempFolder folder;
+  const Campaign campaign = heightsOnly(folder);
+  CompensationRequest request;
+  request.source = CompensationSource::CompletedModel;
+  request.added = {"spindle.growth.z"};
+  request.state = "M10";
+  request.positions = 3;
+  JobContext job;
+  const CompensationPlan plan = planCompensation(campaign, *campaign.observations, request, job);
+  ASSERT_EQ(plan.points.size(), 4U);
+  EXPECT_LT(plan.points.front().correction_um.z(), -5.0);
+  EXPECT_TRUE(std::isnan(plan.points.front().correction_um.x())) << "0 would say that X needs none";
+  EXPECT_TRUE(std::isnan(plan.points.front().sigma_um.y()));
+  EXPECT_GT(plan.largest_um, 5.0);
+  EXPECT_TRUE(plan.json()["points"][0]["correction_um"][0].is_null());
+  EXPECT_THAT(plan.warnings, Contains(HasSubstr("EX was not measured")));
+  std::vector<std::string> names;
+  for (const CompensationFile& f : plan.files) {
+    names.push_back(f.name);
+    if (f.name == "compensation_points.csv") {
+      EXPECT_THAT(f.content, HasSubstr("\nF1,20,15,0,,,-"));
+    }
+    if (f.name == "compensation_grid.csv") {
+      EXPECT_THAT(f.content, HasSubstr("\n0,0,0,,,-"));
+    }
+    if (f.name == "iso230_X.csv") {
+      EXPECT_THAT(f.content, HasSubstr("# not measured, so that nothing is stated of it: EX, EY"));
+      EXPECT_THAT(f.content, HasSubstr("\n150,,,0.0000,,,,,,0."));
+    }
+  }
+  EXPECT_THAT(names, Not(Contains("linuxcnc_X.comp"))) << "a table of zeros says that the axis is right";
+  EXPECT_THAT(names, Contains("linuxcnc_Z.comp"));
 }
 
 }  // namespace

@@ -148,7 +148,8 @@ void CompensatePage::showView() {
       remains[static_cast<Eigen::Index>(i)] = p.remains_um[i].value_or(0.0);
     }
     largest = std::max(largest, measured.norm());
-    arrow.deviation_um = what == 0 ? p.correction_um : what == 1 ? measured : remains;
+    const Eigen::Vector3d correction = p.correction_um.array().isFinite().select(p.correction_um, 0.0);
+    arrow.deviation_um = what == 0 ? correction : what == 1 ? measured : remains;
     point.value_text = sizeText(arrow.deviation_um.norm(), QStringLiteral("um"));
     points.push_back(std::move(point));
     arrows.push_back(arrow);

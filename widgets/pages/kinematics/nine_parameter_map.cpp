@@ -87,7 +87,7 @@ void NineParameterPage::showField() {
     return;
   }
   const NineParameterFit& f = *result_;
-  const NineParameterModel nine = f.model();
+  const NineParameterModel nine = f.predictingModel();
   const bool higher = higher_->isChecked() && order_.richer();
   const ErrorModel& model = higher ? static_cast<const ErrorModel&>(*order_.model) : nine;
   const Component component = shown_components[static_cast<std::size_t>(component_->current())];

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the certificate of an artefact can say: a number outside is one in another unit (1/K, K, °F).
+#pragma once
+
+#include <array>
+
+namespace spindrift {
+
+constexpr std::array<double, 2> artefact_expansion_range_um_per_m_K{-5.0, 100.0};
+constexpr std::array<double, 2> artefact_temperature_range_degC{-20.0, 80.0};
+
+}  // namespace spindrift
