@@ -139,9 +139,15 @@ TaskWork axisErrorsWork(const TaskGraph& graph, const TaskInputs& in) {
 TaskWork nineParameterWork(const TaskGraph& graph, const TaskInputs& in) {
   const NineParameterOptions options = nineParameterOptions(
       campaignSetting(graph.session(), graph.campaign(), option_keys::nine_parameters, nlohmann::json::object()));
-  return [observations = in.observations, options](JobContext&, TaskOutput) -> TaskResult {
-    NineParameterResult result{fitNineParameters(*observations, options), {}};
+  return [observations = in.observations, options](JobContext&, TaskOutput output) -> TaskResult {
+    NineParameterResult result;
+    result.fit = fitNineParameters(*observations, options);
     result.order = chooseTableOrder(result.fit);
+    try {
+      if (output != TaskOutput::Payload) result.compared = compareWithOthers(*observations, result.fit, options);
+    } catch (const InputError& e) {
+      result.not_compared = e.what();
+    }
     const NineParameterFit& fit = result.fit;
     nlohmann::json parameters = nlohmann::json::object();
     for (int i = 0; i < nine_parameter_count; ++i) {

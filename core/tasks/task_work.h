@@ -8,6 +8,7 @@
 #include <functional>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -70,6 +71,8 @@ struct EvaluationDetail {
 struct NineParameterResult {
   NineParameterFit fit;
   TableOrderChoice order;
+  std::optional<NineParameterComparison> compared;  ///< with the points that were not fitted
+  std::string not_compared;                         ///< why that failed; empty: it did not
 };
 
 struct LogCompensation {

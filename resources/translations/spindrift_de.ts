@@ -16834,6 +16834,10 @@ einsatz</translation>
         <source>Residual / σ</source>
         <translation>Residuum / σ</translation>
     </message>
+    <message>
+        <source>Reading the fit</source>
+        <translation>Anpassung wird gelesen</translation>
+    </message>
 </context>
 <context>
     <name>spindrift::gui::NoisePanel</name>
