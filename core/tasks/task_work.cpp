@@ -263,7 +263,7 @@ TaskWork reportWork(const TaskGraph& graph, const TaskInputs& in) {
   };
 }
 
-/// Each after those it is made from.
+/// One for each of taskKinds().
 constexpr std::array<std::pair<std::string_view, Prepare>, 12> works{
     {{"check", checkWork},
      {"evaluate", evaluateWork},
@@ -316,22 +316,12 @@ DiscrepancyRun SimulationTask::putInto(const std::filesystem::path& folder, cons
   return run;
 }
 
-std::vector<std::string> tasksWithWork() {
-  std::vector<std::string> names;
-  for (const auto& [name, prepare] : works) names.emplace_back(name);
-  return names;
-}
-
 TaskWork prepareTask(const std::string& task, const TaskGraph& graph, const TaskInputs& inputs) {
   const auto found = std::find_if(works.begin(), works.end(), [&](const auto& one) { return one.first == task; });
   if (found == works.end()) throw InputError(fmt::format("{} is no task of a campaign.", task));
   const bool fits_points = task == "fit" && !graph.facts().touches && !graph.facts().scans;
-  constexpr std::array of_observations{"check-jogs", "check-repeatability", "discrepancy",
-                                       "simulation", "compensation",        "verify"};
-  const bool wants_observations =
-      std::find(of_observations.begin(), of_observations.end(), task) != of_observations.end();
-  if ((fits_points || wants_observations) && inputs.observations == nullptr)
-    throw InputError("Evaluate the captures first (Calibrate).");
+  const bool of_observations = task == "fit" ? fits_points : taskKind(task)->of_observations;
+  if (of_observations && inputs.observations == nullptr) throw InputError("Evaluate the captures first (Calibrate).");
   return found->second(graph, inputs);
 }
 
