@@ -17,6 +17,7 @@
 #include <QTableWidget>
 #include <QTest>
 #include <QTimer>
+#include <QToolTip>
 
 #include "core/base/atomic_file.h"
 #include "core/tasks/task_options.h"
@@ -170,6 +171,24 @@ class UndoTest : public StoryTest {
     look("a crash");
   }
 };
+
+TEST_F(UndoTest, AButtonThatHasNothingToRemoveSaysSo) {
+  const auto expectSaid = [&](const QWidget* in, QTableWidget* table, const char* text) {
+    const auto before = cells(table);
+    table->setCurrentCell(-1, -1);
+    QToolTip::hideText();
+    press(in, text);
+    EXPECT_EQ(QToolTip::text(), QStringLiteral("Choose a row of the table first.")) << text;
+    EXPECT_EQ(cells(table), before) << text;
+  };
+  ArtefactEditor* editor = artefacts();
+  expectSaid(editor, editor->styli(), "Remove stylus");
+  expectSaid(editor->fields(), editor->fields()->features(), "Remove row");
+  MachinePage* page = machinePage();
+  page->findChild<QTabWidget*>(QStringLiteral("machineTabs"))->setCurrentIndex(0);
+  expectSaid(page, table(page, "Measuring points"), "Remove point");
+  EXPECT_EQ(steps(), 0);
+}
 
 TEST_F(UndoTest, APointThatIsRemovedOrAddedComesBackAndGoes) {
   open(writeStoryCampaign(folder_, Hidden::Nothing), StepId::Machine);
