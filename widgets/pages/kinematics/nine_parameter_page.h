@@ -34,6 +34,8 @@ class NineParameterPage : public Page {
   void setComponent(int index);
   [[nodiscard]] View3D* view() const { return view_; }
   [[nodiscard]] QCheckBox* higherOrderBox() const { return higher_; }
+  /// Null: none is shown.
+  [[nodiscard]] const NineParameterFit* fit() const { return result_ == nullptr ? nullptr : &result_->fit; }
   [[nodiscard]] TableOrderChoice orderChoice() const { return result_ ? result_->order : TableOrderChoice(); }
   [[nodiscard]] const Field* field() const { return field_.get(); }
 
