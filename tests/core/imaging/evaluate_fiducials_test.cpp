@@ -197,6 +197,7 @@ TEST_F(RenderedCampaign, DeviationHasTheSignAndSizeOfTheTruth) {
   double weights = 0.0, sum = 0.0;
   for (const auto& fiducial : e.details["fiducials"]) {
     for (const auto& state : fiducial["states"]) {
+      if (state["axis_directions"].is_null()) continue;
       const nlohmann::json& one = state["axis_directions"]["orthogonality_urad"];
       const double weight = std::pow(one["standard_uncertainty"].get<double>(), -2);
       weights += weight;
