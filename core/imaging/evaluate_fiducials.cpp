@@ -3,11 +3,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/base/text.h"
 #include "core/base/units.h"
 #include "core/imaging/fiducial_displacement.h"
+#include "core/math/known_values.h"
 
 namespace spindrift {
 namespace {
@@ -85,6 +87,20 @@ nlohmann::json stateJson(const FiducialState& s, const FiducialDisplacement& d) 
   return out;
 }
 
+/// Mean over the fiducials and states that tell it; null if none does.
+nlohmann::json orthogonalityJson(const FiducialDisplacement& d) {
+  std::vector<double> values, sigmas;
+  for (const FiducialState& s : d.states) {
+    if (!s.directions || !d.axes.sets[*s.directions].both) continue;
+    const SetDirections& axes = d.axes.sets[*s.directions];
+    values.push_back(axes.orthogonality_rad * urad_per_rad);
+    sigmas.push_back(std::max(1e-6, axes.orthogonality_sigma_rad * urad_per_rad));
+  }
+  if (values.empty()) return nullptr;
+  const WeightedMean mean = weightedMean(values, sigmas);
+  return withSigma(mean.value, mean.sigma);
+}
+
 nlohmann::json detailsOf(const FiducialCaptureList& list, const FiducialImages& images, const FiducialDisplacement& d) {
   nlohmann::json fiducials = nlohmann::json::array();
   for (const std::string& fiducial : list.fiducials()) {
@@ -136,7 +152,11 @@ nlohmann::json detailsOf(const FiducialCaptureList& list, const FiducialImages& 
     focus["degrees_of_freedom"] = d.focus.degrees_of_freedom;
     focus["shape_per_mm"] = {d.focus.shape(0), d.focus.shape(1), d.focus.shape(2)};
   }
-  return {{"fiducials", fiducials}, {"camera", camera}, {"centre_of_rotation", centre}, {"contrast_curve", focus}};
+  return {{"fiducials", fiducials},
+          {"camera", camera},
+          {"orthogonality_urad", orthogonalityJson(d)},
+          {"centre_of_rotation", centre},
+          {"contrast_curve", focus}};
 }
 
 std::string summaryOf(const FiducialDisplacement& d) {

@@ -574,4 +574,17 @@ NineParameterComparison compareNineParameters(const ObservationSet& observations
   return comparison;
 }
 
+std::optional<NineParameterComparison> compareWithOthers(const ObservationSet& observations,
+                                                         const NineParameterFit& fit,
+                                                         const NineParameterOptions& options) {
+  if (options.points.empty()) return std::nullopt;
+  std::set<std::string> others;
+  for (const NineParameterResidual& r : fit.residuals) others.insert(r.point);
+  for (const std::string& point : options.points) others.erase(point);
+  if (others.size() < 3) return std::nullopt;
+  NineParameterOptions of_others = options;
+  of_others.points.assign(others.begin(), others.end());
+  return compareNineParameters(observations, options, of_others);
+}
+
 }  // namespace spindrift

@@ -16,6 +16,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <cmath>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -90,6 +91,10 @@ struct NineParameterResidual {
   double residual_um = 0.0;  ///< value - prediction
   double weight = 1.0;       ///< of the robust fit, 0..1
   bool used = true;          ///< took part in the fit
+
+  [[nodiscard]] double inSigmas() const noexcept { return sigma_um > 0.0 ? residual_um / sigma_um : 0.0; }
+  /// Beyond three standard uncertainties.
+  [[nodiscard]] bool outlying() const noexcept { return std::abs(inSigmas()) > 3.0; }
 };
 
 /// Result of a fit. If `status` is Degenerate the parameters in `undetermined` have no value (infinite variance), the
@@ -180,5 +185,11 @@ struct NineParameterComparison {
 [[nodiscard]] NineParameterComparison compareNineParameters(const ObservationSet& observations,
                                                             const NineParameterOptions& a,
                                                             const NineParameterOptions& b, double level = 0.05);
+
+/// The points that `fit` was made from with these options against all others of its state; empty if fewer than three
+/// are left. Throws InputError as the fits.
+[[nodiscard]] std::optional<NineParameterComparison> compareWithOthers(const ObservationSet& observations,
+                                                                       const NineParameterFit& fit,
+                                                                       const NineParameterOptions& options);
 
 }  // namespace spindrift

@@ -12,7 +12,7 @@ PointCloud readPly(const std::filesystem::path& file, const std::string& text) {
   Lines lines(text);
   std::string_view line;
   if (!lines.next(line) || words(line).empty() || words(line)[0] != "ply")
-    fail(file, "line 1", "is no PLY file: it does not start with 'ply'.");
+    fail(file, 1, "is no PLY file: it does not start with 'ply'.");
   struct Type {
     std::string_view name;
     char type;

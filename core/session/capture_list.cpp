@@ -126,7 +126,7 @@ bool CaptureList::holds(const std::string& row) {
 std::optional<ListChange> CaptureList::changeFor(const std::string& header, const std::vector<std::string>& rows) {
   refresh();
   if (seen_.there && seen_.size > 0 && header_ != header) {
-    throw InputError({file_, "line 1"},
+    throw InputError(SourcePlace::atLine(file_, 1),
                      fmt::format("has the columns \"{}\"; allowed for capturing into it: \"{}\".", header_, header));
   }
   std::vector<std::string> fresh;

@@ -29,7 +29,7 @@ std::optional<std::string> OutdatedChain::next(const TaskGraph& graph) {
     return std::find(started_.begin(), started_.end(), task) != started_.end();
   };
   for (const std::string& task : graph.tasks()) {
-    if (task == "simulation") continue;
+    if (taskKind(task)->starts_programs) continue;
     const TaskStatus status = graph.status(task);
     if (status.result == 0 || status.current || !graph.whyNot(task).empty()) continue;
     const std::vector<std::string> order = graph.needed(task);

@@ -32,9 +32,9 @@ class TaskChain {
   std::map<std::string, nlohmann::json> started_;  ///< what each was started with
 };
 
-/// What is to be run so that every result that there is holds again; what was never run stays so, and a simulator is
-/// run only when it is asked for. One after the other, each once: what fails, or is outdated by a change meanwhile,
-/// stays so with what is made from it.
+/// What is to be run so that every result that there is holds again; what was never run stays so, and what
+/// starts programs is run only when it is asked for. One after the other, each once: what fails, or is outdated by a
+/// change meanwhile, stays so with what is made from it.
 class OutdatedChain {
  public:
   /// What is to be started now; nothing: the chain is at its end.

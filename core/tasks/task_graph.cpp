@@ -16,10 +16,20 @@
 namespace spindrift {
 namespace {
 
-/// Results that are shown in a report as they are: the report has to be written again when there are others, and says
-/// of each by itself whether it still holds.
-constexpr std::array told{"check-jogs", "check-repeatability", "thermal", "compensation", "log-compensation",
-                          "verify",     "simulation"};
+constexpr std::array kinds{
+    TaskKind{.id = "check"},
+    TaskKind{.id = "evaluate"},
+    TaskKind{.id = "check-jogs", .of_observations = true, .told = true},
+    TaskKind{.id = "check-repeatability", .of_observations = true, .told = true},
+    TaskKind{.id = "fit", .of_observations = true},
+    TaskKind{.id = "thermal", .told = true},
+    TaskKind{.id = "log-compensation", .told = true},
+    TaskKind{.id = "discrepancy", .of_observations = true},
+    TaskKind{.id = "simulation", .of_observations = true, .told = true, .starts_programs = true},
+    TaskKind{.id = "compensation", .of_observations = true, .told = true},
+    TaskKind{.id = "verify", .of_observations = true, .told = true},
+    TaskKind{.id = "report"},
+};
 
 bool isReport(const std::string& task) {
   return task == "report";
@@ -72,6 +82,16 @@ Provenance asOfVersion(Provenance then, const ResultOrigin& now) {
 }
 
 }  // namespace
+
+std::span<const TaskKind> taskKinds() noexcept {
+  return kinds;
+}
+
+const TaskKind* taskKind(std::string_view id) noexcept {
+  const auto* const found =
+      std::find_if(kinds.begin(), kinds.end(), [&](const TaskKind& kind) { return kind.id == id; });
+  return found == kinds.end() ? nullptr : found;
+}
 
 std::string_view toString(TaskState state) noexcept {
   constexpr std::array names{"not run", "blocked", "running", "current", "outdated", "failed"};
@@ -204,7 +224,9 @@ nlohmann::json TaskGraph::inputsOfResults(const std::string& task) const {
   };
   for (const std::string& kind : madeFrom(task)) add(kind);
   if (isReport(task)) {
-    for (const char* kind : told) add(kind);
+    // The report has to be written again when there are others.
+    for (const TaskKind& kind : kinds)
+      if (kind.told) add(std::string(kind.id));
     // What is printed word by word, beside the notes (an option).
     Fingerprint reasons;
     for (const Exclusion& exclusion : session_.exclusions(campaign_)) reasons.add(exclusion.item).add(exclusion.reason);
@@ -277,8 +299,7 @@ std::string TaskGraph::blockedBecause(const std::string& task) const {
            "that log as a campaign of its own.";
   if (task == "compensation" && latest_("fit") == nullptr && EffectOptions::of(session_, campaign_).added.empty())
     return facts_.simulation ? "Fit a model or add a missing effect to the simulation first." : "Fit a model first.";
-  if (task == "fit" || task == "discrepancy" || task == "simulation" || task == "compensation" || task == "verify" ||
-      isInstrumentCheck(task))
+  if (const TaskKind* kind = taskKind(task); kind != nullptr && kind->of_observations)
     return hasObservations() ? std::string() : "Evaluate the captures first (Calibrate).";
   return {};
 }

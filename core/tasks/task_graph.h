@@ -19,7 +19,9 @@
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -28,6 +30,18 @@
 #include "core/tasks/campaign_facts.h"
 
 namespace spindrift {
+
+/// What holds of a task whatever campaign it is run on.
+struct TaskKind {
+  std::string_view id;
+  bool of_observations = false;  ///< works on observations: captures have to be evaluated first
+  bool told = false;             ///< a report shows its result as it is, and says whether it still holds
+  bool starts_programs = false;  ///< runs programs that a file names: only when somebody asks for this task itself
+};
+/// All tasks that there are, each after those it is made from.
+[[nodiscard]] std::span<const TaskKind> taskKinds() noexcept;
+/// Null: there is no such task.
+[[nodiscard]] const TaskKind* taskKind(std::string_view id) noexcept;
 
 enum class TaskState {
   NotRun,

@@ -139,9 +139,15 @@ TaskWork axisErrorsWork(const TaskGraph& graph, const TaskInputs& in) {
 TaskWork nineParameterWork(const TaskGraph& graph, const TaskInputs& in) {
   const NineParameterOptions options = nineParameterOptions(
       campaignSetting(graph.session(), graph.campaign(), option_keys::nine_parameters, nlohmann::json::object()));
-  return [observations = in.observations, options](JobContext&, TaskOutput) -> TaskResult {
-    NineParameterResult result{fitNineParameters(*observations, options), {}};
+  return [observations = in.observations, options](JobContext&, TaskOutput output) -> TaskResult {
+    NineParameterResult result;
+    result.fit = fitNineParameters(*observations, options);
     result.order = chooseTableOrder(result.fit);
+    try {
+      if (output != TaskOutput::Payload) result.compared = compareWithOthers(*observations, result.fit, options);
+    } catch (const InputError& e) {
+      result.not_compared = e.what();
+    }
     const NineParameterFit& fit = result.fit;
     nlohmann::json parameters = nlohmann::json::object();
     for (int i = 0; i < nine_parameter_count; ++i) {
@@ -257,7 +263,7 @@ TaskWork reportWork(const TaskGraph& graph, const TaskInputs& in) {
   };
 }
 
-/// Each after those it is made from.
+/// One for each of taskKinds().
 constexpr std::array<std::pair<std::string_view, Prepare>, 12> works{
     {{"check", checkWork},
      {"evaluate", evaluateWork},
@@ -310,22 +316,12 @@ DiscrepancyRun SimulationTask::putInto(const std::filesystem::path& folder, cons
   return run;
 }
 
-std::vector<std::string> tasksWithWork() {
-  std::vector<std::string> names;
-  for (const auto& [name, prepare] : works) names.emplace_back(name);
-  return names;
-}
-
 TaskWork prepareTask(const std::string& task, const TaskGraph& graph, const TaskInputs& inputs) {
   const auto found = std::find_if(works.begin(), works.end(), [&](const auto& one) { return one.first == task; });
   if (found == works.end()) throw InputError(fmt::format("{} is no task of a campaign.", task));
   const bool fits_points = task == "fit" && !graph.facts().touches && !graph.facts().scans;
-  constexpr std::array of_observations{"check-jogs", "check-repeatability", "discrepancy",
-                                       "simulation", "compensation",        "verify"};
-  const bool wants_observations =
-      std::find(of_observations.begin(), of_observations.end(), task) != of_observations.end();
-  if ((fits_points || wants_observations) && inputs.observations == nullptr)
-    throw InputError("Evaluate the captures first (Calibrate).");
+  const bool of_observations = task == "fit" ? fits_points : taskKind(task)->of_observations;
+  if (of_observations && inputs.observations == nullptr) throw InputError("Evaluate the captures first (Calibrate).");
   return found->second(graph, inputs);
 }
 

@@ -8,6 +8,7 @@
 #include <functional>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -70,6 +71,8 @@ struct EvaluationDetail {
 struct NineParameterResult {
   NineParameterFit fit;
   TableOrderChoice order;
+  std::optional<NineParameterComparison> compared;  ///< with the points that were not fitted
+  std::string not_compared;                         ///< why that failed; empty: it did not
 };
 
 struct LogCompensation {
@@ -101,8 +104,6 @@ struct SimulationTask {
                                        const DiscrepancyRun* before, JobContext& job) const;
 };
 
-/// The tasks whose work is here, each after those it is made from.
-[[nodiscard]] std::vector<std::string> tasksWithWork();
 /// Of the graph's campaign as it is now: to be called together with TaskGraph::origin. Throws InputError: the task has
 /// no work here, or nothing to work on.
 [[nodiscard]] TaskWork prepareTask(const std::string& task, const TaskGraph& graph, const TaskInputs& inputs);

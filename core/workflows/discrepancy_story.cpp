@@ -10,6 +10,7 @@
 #include "core/base/no_number.h"
 #include "core/discrepancy/effect_model.h"
 #include "core/math/distributions.h"
+#include "core/math/known_values.h"
 #include "core/workflows/stored_effect.h"
 
 namespace spindrift {
@@ -305,6 +306,17 @@ void parseRest(const nlohmann::json& result, DiscrepancyStory& story) {
 }
 
 }  // namespace
+
+double DiscrepancySeries::remainingRms() const {
+  return rootMeanSquareOfKnown(remaining);
+}
+
+std::optional<std::size_t> DiscrepancySeries::largestRemaining() const {
+  std::optional<std::size_t> at;
+  for (std::size_t i = 0; i < remaining.size(); ++i)
+    if (std::isfinite(remaining[i]) && (!at || std::abs(remaining[i]) > std::abs(remaining[*at]))) at = i;
+  return at;
+}
 
 const FoundEffect* DiscrepancyStory::nextProposal() const {
   const auto found = std::find_if(effects.begin(), effects.end(), [](const FoundEffect& e) { return !e.forced; });

@@ -13,6 +13,7 @@
 
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -47,6 +48,11 @@ struct DiscrepancySeries {
   double excess_after = 0.0;  ///< NaN while nothing has been added
   /// The series by itself, or a place it belongs to, deviates more than the noise allows (1 % for all series together).
   bool significant = false;
+
+  /// Of `remaining`; NaN if nothing of it is known.
+  [[nodiscard]] double remainingRms() const;
+  /// Where the size of `remaining` is largest; empty if nothing of it is known.
+  [[nodiscard]] std::optional<std::size_t> largestRemaining() const;
 };
 
 struct DiscrepancyStory {

@@ -137,6 +137,13 @@
     </message>
 </context>
 <context>
+    <name>EditorTable</name>
+    <message>
+        <source>Choose a row of the table first.</source>
+        <translation>Zuerst eine Zeile der Tabelle wählen.</translation>
+    </message>
+</context>
+<context>
     <name>Effect</name>
     <message>
         <source>%1 rms in %2</source>
@@ -4834,10 +4841,6 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>limit exceeded</source>
         <translation>Grenze überschritten</translation>
-    </message>
-    <message>
-        <source>line 1</source>
-        <translation>Zeile 1</translation>
     </message>
     <message>
         <source>line {}</source>
@@ -15068,6 +15071,10 @@ einsatz</translation>
         <source>Filter</source>
         <translation>Filter</translation>
     </message>
+    <message>
+        <source>Type the address of the data item beside this button first.</source>
+        <translation>Zuerst neben dieser Schaltfläche die Adresse des Datenpunkts eingeben.</translation>
+    </message>
 </context>
 <context>
     <name>spindrift::gui::JobBar</name>
@@ -16877,6 +16884,10 @@ einsatz</translation>
     <message>
         <source>Residual / σ</source>
         <translation>Residuum / σ</translation>
+    </message>
+    <message>
+        <source>Reading the fit</source>
+        <translation>Anpassung wird gelesen</translation>
     </message>
 </context>
 <context>

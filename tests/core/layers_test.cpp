@@ -132,6 +132,34 @@ TEST(Layers, CoreFoldersIncludeOnlyWhatIsBelowThem) {
   EXPECT_GT(checked, 30U);
 }
 
+/// Files of a folder in which a pattern stands.
+std::vector<std::string> holding(const fs::path& folder, const std::regex& pattern) {
+  std::vector<std::string> found;
+  for (const fs::path& file : sources(folder))
+    if (std::regex_search(readFile(file), pattern)) found.push_back(file.string());
+  return found;
+}
+
+TEST(Layers, TheWindowShowsNumbersAndWorksNoneOut) {
+  std::vector<std::string> wrong;
+  for (const fs::path& file : sources(fs::path(SPINDRIFT_SOURCE_DIR) / "widgets"))
+    for (const std::string& include : includesOf(file))
+      if (include.starts_with("core/math/")) wrong.push_back(file.string() + " includes " + include);
+  EXPECT_THAT(wrong, ::testing::IsEmpty()) << "statistics and fits belong into the result that is stored";
+}
+
+TEST(Layers, ConstIsConstInTheWindow) {
+  EXPECT_THAT(holding(fs::path(SPINDRIFT_SOURCE_DIR) / "widgets", std::regex("const_cast<")), ::testing::IsEmpty());
+}
+
+TEST(Layers, ErrorsCarryLinesOfFilesAsNumbers) {
+  const std::regex line_in_words(R"re(\{[^{};]*,\s*(fmt::format\()?"line [0-9{])re");
+  const std::regex first_line(R"re(fail\(file, "line )re");
+  for (const std::regex& pattern : {line_in_words, first_line})
+    EXPECT_THAT(holding(fs::path(SPINDRIFT_SOURCE_DIR) / "core", pattern), ::testing::IsEmpty())
+        << "SourcePlace::atLine";
+}
+
 TEST(Layers, CoreAndCommandLineKnowNoQtAndNoVtk) {
   const fs::path root = SPINDRIFT_SOURCE_DIR;
   std::vector<std::string> wrong;

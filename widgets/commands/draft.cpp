@@ -2,6 +2,7 @@
 #include "widgets/commands/draft.h"
 
 #include <QCoreApplication>
+#include <QSettings>
 #include <cctype>
 #include <utility>
 
@@ -20,6 +21,10 @@ std::string placeOfChange(const nlohmann::json& before, const nlohmann::json& af
   const char last = path.empty() ? '-' : path[path.rfind('/') + 1];
   const bool row = last == '-' || std::isdigit(static_cast<unsigned char>(last)) != 0;
   return row && patch[0].at("op") != "replace" ? std::string() : path;
+}
+
+QString keyWithoutCampaign(const std::string& name) {
+  return QStringLiteral("draft/") + QString::fromStdString(name);
 }
 
 }  // namespace
@@ -57,6 +62,39 @@ void Draft::takeOver(const nlohmann::json& base) {
   if (!kept.is_object()) return;
   kept["base"] = base;
   push(QCoreApplication::translate("Commands", "show what was typed"), std::move(kept), {});
+}
+
+WindowDraft::WindowDraft(SessionModel& session, const std::string& name)
+    : session_(&session),
+      name_(name),
+      session_number_(session.sessionNumber()),
+      key_(session.draftKey(name)),
+      of_campaign_(session.campaign() != nullptr) {}
+
+nlohmann::json WindowDraft::typed() const {
+  if (!atHand()) return {};
+  if (of_campaign_) {
+    const nlohmann::json kept = session_->draft(name_);
+    return kept.is_object() ? kept.at("typed") : nlohmann::json();
+  }
+  const nlohmann::json kept =
+      nlohmann::json::parse(QSettings().value(keyWithoutCampaign(name_)).toString().toStdString(), nullptr, false);
+  return kept.is_discarded() ? nlohmann::json() : kept;
+}
+
+void WindowDraft::keep(const nlohmann::json& typed) {
+  if (session_ == nullptr) return;
+  if (!of_campaign_) {
+    QSettings().setValue(keyWithoutCampaign(name_), QString::fromStdString(typed.dump()));
+  } else if (session_->sessionNumber() == session_number_) {
+    session_->setSetting(key_, typed.is_null() ? typed : nlohmann::json{{"base", nullptr}, {"typed", typed}});
+  }
+}
+
+bool WindowDraft::atHand() const {
+  if (session_ == nullptr) return false;
+  if (!of_campaign_) return session_->campaign() == nullptr;
+  return session_->sessionNumber() == session_number_ && session_->draftKey(name_) == key_;
 }
 
 }  // namespace spindrift::gui

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What is typed in an editor and not applied yet. It is on the disk with every change, belongs to the campaign and to
-// what was being edited, and every change of it is a step that can be undone.
+// what was being edited, and every change of it is a step that can be undone. What is set in a window of its own (a
+// note, sliders, a design) is kept the same way and is no step.
 #pragma once
 
 #include <QString>
+#include <cstdint>
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -41,6 +43,33 @@ class Draft {
   std::string name_;
   std::function<void()> show_;
   nlohmann::json shown_;
+};
+
+/// What is set in a window beside the pages and leaves no result, for the campaign that is at hand when the window is
+/// opened: there again after another campaign, another session and a crash. Without a session it is kept with the
+/// settings of the program.
+class WindowDraft {
+ public:
+  /// Keeps nothing.
+  WindowDraft() = default;
+  /// `name` tells it from other windows'. The session has to live as long.
+  WindowDraft(SessionModel& session, const std::string& name);
+
+  /// What was set last; null: nothing.
+  [[nodiscard]] nlohmann::json typed() const;
+  /// Null: there is nothing to keep. Nothing happens when the session it belongs to is not open any more.
+  void keep(const nlohmann::json& typed);
+  /// Of a campaign, and not only of the program.
+  [[nodiscard]] bool ofCampaign() const { return of_campaign_; }
+  /// Whether a window that is opened now would keep the same.
+  [[nodiscard]] bool atHand() const;
+
+ private:
+  SessionModel* session_ = nullptr;
+  std::string name_;
+  std::int64_t session_number_ = 0;  ///< SessionModel::sessionNumber
+  std::string key_;                  ///< SessionModel::draftKey
+  bool of_campaign_ = false;
 };
 
 }  // namespace spindrift::gui

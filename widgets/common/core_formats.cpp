@@ -1223,7 +1223,6 @@ const char* const formats[] = {
     QT_TRANSLATE_NOOP("core", "lies in the campaign folder, which is never written to; allowed: any other place."),
     QT_TRANSLATE_NOOP("core", "limit and uncertainties of {} must be positive."),
     QT_TRANSLATE_NOOP("core", "limit exceeded"),
-    QT_TRANSLATE_NOOP("core", "line 1"),
     QT_TRANSLATE_NOOP("core", "line {}"),
     QT_TRANSLATE_NOOP("core", "line {}, {}"),
     QT_TRANSLATE_NOOP("core", "lines that were printed meanwhile are not repeated."),

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "widgets/common/editor_table.h"
 
+#include <QCoreApplication>
 #include <QHeaderView>
+#include <QPushButton>
 #include <QScrollBar>
 #include <QTableWidget>
+#include <QToolTip>
 #include <algorithm>
+#include <utility>
 
 #include "core/base/text.h"
 #include "widgets/common/table_habits.h"
@@ -54,6 +58,19 @@ class Editor : public QTableWidget {
 };
 
 }  // namespace
+
+void sayBeside(QWidget* button, const QString& sentence) {
+  QToolTip::showText(button->mapToGlobal(button->rect().bottomLeft()), sentence, button);
+}
+
+void makeRemoving(QPushButton* button, QTableWidget* table, std::function<void()> removed) {
+  QObject::connect(button, &QPushButton::clicked, table, [button, table, removed = std::move(removed)] {
+    if (table->currentRow() < 0)
+      return sayBeside(button, QCoreApplication::translate("EditorTable", "Choose a row of the table first."));
+    table->removeRow(table->currentRow());
+    removed();
+  });
+}
 
 QTableWidget* makeEditor(const QStringList& headers, const QString& accessible_name) {
   auto* table = new Editor(0, static_cast<int>(headers.size()));

@@ -4,13 +4,20 @@
 
 #include <QString>
 #include <QStringList>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <optional>
 
+class QPushButton;
 class QTableWidget;
+class QWidget;
 
 namespace spindrift::gui {
 
+/// Why a button does nothing, beside it.
+void sayBeside(QWidget* button, const QString& sentence);
+/// The button removes the row that is chosen, and `removed` is called; where none is chosen it says so.
+void makeRemoving(QPushButton* button, QTableWidget* table, std::function<void()> removed);
 [[nodiscard]] QTableWidget* makeEditor(const QStringList& headers, const QString& accessible_name);
 [[nodiscard]] QString numberText(const std::optional<double>& value);
 [[nodiscard]] QString textAt(const QTableWidget* table, int row, int column);

@@ -49,7 +49,7 @@ QString fileNameOf(const QString& name) {
   return text;
 }
 
-Exportable exportableOf(const QString& name, const Plot* plot) {
+Exportable exportableOf(const QString& name, Plot* plot) {
   return {name,
           {QStringLiteral("png"), QStringLiteral("svg"), QStringLiteral("pdf"), QStringLiteral("csv")},
           [plot](const QString& file) { plot->exportTo(file); }};

@@ -32,7 +32,7 @@ struct Exportable {
   std::function<void(const QString& file, JobContext& job)> write_in_background = {};
 };
 
-[[nodiscard]] Exportable exportableOf(const QString& name, const Plot* plot);
+[[nodiscard]] Exportable exportableOf(const QString& name, Plot* plot);
 [[nodiscard]] Exportable exportableOf(const QString& name, View3D* view);
 [[nodiscard]] Exportable exportableOf(const QString& name, const ImageView* view);
 /// A table as CSV: the texts of its display role (numbers as they are shown are kept exactly in Qt::UserRole).

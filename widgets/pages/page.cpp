@@ -4,6 +4,7 @@
 #include <QHBoxLayout>
 #include <QTabWidget>
 #include <QVBoxLayout>
+#include <utility>
 
 #include "core/base/error.h"
 #include "core/tasks/task_options.h"
@@ -12,6 +13,19 @@
 #include "widgets/common/parts.h"
 
 namespace spindrift::gui {
+
+namespace {
+
+/// Whether that is what a result was made from.
+bool madeFrom(const ResultOrigin& origin, const Provenance& stored) {
+  if (!stored.options.is_object()) return false;
+  // Options beyond those that the session keeps belong to whoever added them.
+  for (const auto& [name, value] : origin.options.items())
+    if (stored.options.value(name, nlohmann::json()) != value) return false;
+  return origin.inputs == stored.inputs;
+}
+
+}  // namespace
 
 Page::Page(PageContext context, StepId step, QWidget* parent)
     : QWidget(parent), context_(std::move(context)), step_(step) {
@@ -91,10 +105,31 @@ void Page::runTask(const std::string& task, WorkEnds ends) {
   if (!ends.failed) ends.failed = [this](const QString& sentence) { showFailure(sentence); };
   spindrift::gui::runTask(context_.session, context_.jobs, task,
                           {.inputs = [this] { return taskInputs(); },
-                           .take = [this](const TaskGiven& given) { take(given); },
+                           .take = [this](const TaskGiven& given) { keepGiven(given); },
                            .done = std::move(ends.done),
                            .failed = std::move(ends.failed),
                            .cancelled = std::move(ends.cancelled)});
+}
+
+void Page::keepGiven(const TaskGiven& given) {
+  if (std::exchange(given_visit_, session().visit()) != session().visit()) given_.clear();
+  given_[given.task] = std::make_shared<const TaskGiven>(given);
+  take(given);
+}
+
+ShownTask Page::shown(const std::string& task, const QString& title) {
+  if (std::exchange(given_visit_, session().visit()) != session().visit()) given_.clear();
+  ShownTask out;
+  out.state = session().state(task);
+  const StoredResult* stored = session().latest(task);
+  const auto found = given_.find(task);
+  if (stored != nullptr && found != given_.end() && madeFrom(found->second->origin, stored->provenance)) {
+    out.given = found->second;
+  } else if (out.state.current) {
+    out.reading = true;
+    showAgain(title, task);
+  }
+  return out;
 }
 
 void Page::runAlone(const std::string& task) {
@@ -106,7 +141,7 @@ void Page::showAgain(const QString& title, const std::string& task) {
     display(title,
             [this, detail = detailOfTask(session(), task, taskInputs())](JobContext& job) -> std::function<void()> {
               return [this, now = detail(job)] {
-                if (const TaskGiven* given = now()) take(*given);
+                if (const TaskGiven* given = now()) keepGiven(*given);
                 refresh();
               };
             });

@@ -6,7 +6,9 @@
 
 #include <QWidget>
 #include <functional>
+#include <map>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "widgets/export/exportable.h"
@@ -20,6 +22,17 @@ namespace spindrift::gui {
 
 class Callout;
 class WrappedLabel;
+
+/// A stored result of a task, and what was given beside it.
+struct ShownTask {
+  ResultState state;
+  bool reading = false;  ///< what was given beside it is being worked out again; the page is refreshed then
+  std::shared_ptr<const TaskGiven> given;  ///< of the very result that is stored; null: it is not at hand
+  template <class T>
+  [[nodiscard]] std::shared_ptr<const T> as() const {
+    return given == nullptr ? nullptr : given->result.as<T>();
+  }
+};
 
 class Page : public QWidget {
   Q_OBJECT
@@ -62,6 +75,9 @@ class Page : public QWidget {
   void runAlone(const std::string& task);
   /// Whether a task can be run, with what it needs first.
   [[nodiscard]] bool canRun(const std::string& task) const { return session().tasks().whyNot(task).empty(); }
+  /// For refresh(): what to show of a task, whoever has run it. Where what was given beside a current result is not at
+  /// hand, a job of this title works it out again.
+  [[nodiscard]] ShownTask shown(const std::string& task, const QString& title);
   /// Works out again what is shown beside the stored result of a task: `take` gets it, and the page is refreshed.
   void showAgain(const QString& title, const std::string& task);
   /// Keeps what a task gave beside what is stored.
@@ -84,8 +100,11 @@ class Page : public QWidget {
 
  private:
   [[nodiscard]] Job jobOf(const QString& title, Work work);
+  void keepGiven(const TaskGiven& given);
 
   std::int64_t seen_visit_ = -1;
+  std::map<std::string, std::shared_ptr<const TaskGiven>> given_;  ///< the last of each task, of given_visit_
+  std::int64_t given_visit_ = -1;
   PageContext context_;
   StepId step_;
   WrappedLabel* instruction_;

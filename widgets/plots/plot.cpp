@@ -539,13 +539,13 @@ QString Plot::csv() const {
   return text;
 }
 
-void Plot::exportTo(const QString& file) const {
+void Plot::exportTo(const QString& file) {
   const QString lower = file.toLower();
   const int width = std::max(this->width(), 640);
   const int height = std::max(this->height(), 400);
   bool written = false;
   const LightColours light;
-  const_cast<Plot*>(this)->drawIfStale();
+  drawIfStale();
   if (lower.endsWith(QLatin1String(".csv"))) {
     writeFileAtomically(file.toStdString(), csv().toStdString());
     return;

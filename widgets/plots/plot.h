@@ -70,8 +70,8 @@ class Plot : public QWidget {
   void setSpansMovable(bool movable) { spans_movable_ = movable; }
   [[nodiscard]] const std::vector<Span>& spans() const { return spans_; }
   /// Horizontal place of a value, pixels of this widget.
-  [[nodiscard]] double pixelOfX(double x) const;
-  [[nodiscard]] QPointF pixelOf(double x, double y) const;
+  [[nodiscard]] double pixelOfX(double x);
+  [[nodiscard]] QPointF pixelOf(double x, double y);
   /// A vertical line that marks what is shown elsewhere; moves without drawing the curves anew. Empty: none.
   void setMoment(const std::optional<double>& x);
   [[nodiscard]] const std::optional<double>& moment() const { return moment_; }
@@ -79,7 +79,7 @@ class Plot : public QWidget {
   void setRange(const std::optional<std::pair<double, double>>& y) { fixed_range_ = y; }
 
   /// By the ending: .png, .svg, .pdf (and .csv for the numbers). Throws InputError.
-  void exportTo(const QString& file) const;
+  void exportTo(const QString& file);
   [[nodiscard]] QString csv() const;
   [[nodiscard]] bool empty() const { return series_.empty(); }
   /// Where the names of the marks in view stand, pixels of this widget.

@@ -13,13 +13,13 @@
 
 namespace spindrift::gui {
 
-double Plot::pixelOfX(double x) const {
-  const_cast<Plot*>(this)->drawIfStale();
+double Plot::pixelOfX(double x) {
+  drawIfStale();
   return plot_->xAxis->coordToPixel(x);
 }
 
-QPointF Plot::pixelOf(double x, double y) const {
-  const_cast<Plot*>(this)->drawIfStale();
+QPointF Plot::pixelOf(double x, double y) {
+  drawIfStale();
   return {plot_->xAxis->coordToPixel(x), plot_->yAxis->coordToPixel(y)};
 }
 
@@ -87,7 +87,7 @@ std::optional<std::pair<std::size_t, bool>> Plot::spanEdgeAt(double pixel_x) con
   double nearest = reach_px;
   for (std::size_t i = 0; i < spans_.size(); ++i) {
     for (const bool left : {true, false}) {
-      const double d = std::abs(pixelOfX(left ? spans_[i].from : spans_[i].to) - pixel_x);
+      const double d = std::abs(plot_->xAxis->coordToPixel(left ? spans_[i].from : spans_[i].to) - pixel_x);
       if (d >= nearest) continue;
       nearest = d;
       best = {i, left};
@@ -98,6 +98,7 @@ std::optional<std::pair<std::size_t, bool>> Plot::spanEdgeAt(double pixel_x) con
 
 bool Plot::dragSpan(QEvent* event) {
   if (!spans_movable_) return false;
+  drawIfStale();
   const auto place = [event] { return static_cast<QMouseEvent*>(event)->position().x(); };
   switch (event->type()) {
     case QEvent::MouseButtonPress:

@@ -30,6 +30,7 @@ struct Exercise;
 namespace spindrift::gui {
 
 class ActivityDialog;
+class ArtefactDesigner;
 class ExerciseDialog;
 class HelpPanel;
 class JobBar;
@@ -40,6 +41,7 @@ class PlantPage;
 class StepList;
 class WelcomePage;
 class WhatIfWindow;
+class WindowDraft;
 class Badge;
 struct Command;
 
@@ -94,6 +96,7 @@ class MainWindow : public QMainWindow {
   [[nodiscard]] ClosedLoopPage* liveCompensation() const { return live_compensation_; }
   /// Errors set by hand on the machine of the campaign at hand, or on a standard one.
   WhatIfWindow* openWhatIf();
+  ArtefactDesigner* openDesigner();
   ExerciseDialog* openExercise();  ///< stays open beside the work
   /// Makes the campaign of an exercise and opens it as a session of its own.
   void startExercise(const Exercise& exercise);
@@ -129,6 +132,10 @@ class MainWindow : public QMainWindow {
   [[nodiscard]] QString whyNot(const QAction* action) const;
   /// The step and the tabs that are shown now, for what is done there.
   [[nodiscard]] UndoPlace undoPlace();
+  /// The window that keeps its draft (WindowDraft) of this name for the campaign at hand: the one that is open, or a
+  /// new one, which closes when another campaign is chosen.
+  template <class Window>
+  Window* openBeside(const std::string& name, const std::function<Window*(WindowDraft)>& make);
   void addCommandsOf(const QMenu& menu, const QString& where, std::vector<Command>& commands);
   [[nodiscard]] static QStringList recentSessions();
   void fillRecentMenu();

@@ -154,11 +154,7 @@ void MainWindow::buildMenu() {
   add(view, tr("&Light or dark"), "moon", QKeySequence(tr("Ctrl+D")),
       [this] { setTheme(theme().kind == ThemeKind::Dark ? ThemeKind::Light : ThemeKind::Dark); });
   QMenu* tools = menuBar()->addMenu(tr("&Tools"));
-  add(tools, tr("&Artefact designer …"), "scan", QKeySequence(tr("Ctrl+Shift+D")), [this] {
-    auto* designer = new ArtefactDesigner(this);
-    designer->setAttribute(Qt::WA_DeleteOnClose);
-    designer->show();
-  });
+  add(tools, tr("&Artefact designer …"), "scan", QKeySequence(tr("Ctrl+Shift+D")), [this] { openDesigner(); });
   need(add(tools, tr("&Effects of this machine …"), "table", QKeySequence(tr("Ctrl+Shift+E")),
            [this] { openEffects(); }),
        no_session);
@@ -264,12 +260,35 @@ void MainWindow::openEffects() {
   if (auto* page = qobject_cast<DiscrepancyPage*>(currentPage())) page->showEffects(true);
 }
 
-WhatIfWindow* MainWindow::openWhatIf() {
-  const auto campaign = session_.campaign();
-  auto* window = new WhatIfWindow(campaign != nullptr ? campaign->machine : standardMachine(), this);
+template <class Window>
+Window* MainWindow::openBeside(const std::string& name, const std::function<Window*(WindowDraft)>& make) {
+  for (auto* window : findChildren<Window*>(Qt::FindDirectChildrenOnly)) {
+    if (!window->isVisible() || !window->draft().atHand()) continue;
+    window->raise();
+    window->activateWindow();
+    return window;
+  }
+  Window* window = make(WindowDraft(session_, name));
   window->setAttribute(Qt::WA_DeleteOnClose);
+  connect(&session_, &SessionModel::campaignChanged, window, [window] {
+    if (window->draft().ofCampaign() && !window->draft().atHand()) window->close();
+  });
   window->show();
   return window;
+}
+
+WhatIfWindow* MainWindow::openWhatIf() {
+  const auto campaign = session_.campaign();
+  const MachineDescription machine = campaign != nullptr ? campaign->machine : standardMachine();
+  for (auto* open : findChildren<WhatIfWindow*>(Qt::FindDirectChildrenOnly))
+    if (open->draft().atHand() && open->model().machine().source != machine.source) open->close();  // it was edited
+  return openBeside<WhatIfWindow>("what-if",
+                                  [&](WindowDraft draft) { return new WhatIfWindow(machine, std::move(draft), this); });
+}
+
+ArtefactDesigner* MainWindow::openDesigner() {
+  return openBeside<ArtefactDesigner>(
+      "artefact-designer", [this](WindowDraft draft) { return new ArtefactDesigner(std::move(draft), this); });
 }
 
 ExerciseDialog* MainWindow::openExercise() {

@@ -22,8 +22,6 @@ namespace spindrift::gui {
 
 namespace {
 
-constexpr auto draft_name = "note";
-
 /// What a note is about stands in the session in English, as in the report; steps are shown as the window calls them.
 QString shownAbout(const std::string& about) {
   for (const StepId step : all_steps)
@@ -41,7 +39,7 @@ std::string writtenAbout(const QString& about) {
 
 NotesDialog::NotesDialog(SessionModel& session, CampaignUndo& undo, const QString& about, const QString& item,
                          QWidget* parent)
-    : QDialog(parent), session_(session), undo_(undo), draft_key_(session.draftKey(draft_name)) {
+    : QDialog(parent), session_(session), undo_(undo), draft_(session, "note") {
   setWindowTitle(tr("Notes"));
   resize(720, 520);
   auto* column = new QVBoxLayout(this);
@@ -105,14 +103,12 @@ void NotesDialog::keepTyped() {
   const nlohmann::json typed = {{"text", text},
                                 {"about", writtenAbout(about_->currentText().trimmed())},
                                 {"item", item_->currentText().toStdString()}};
-  session_.setSetting(draft_key_,
-                      text.empty() ? nlohmann::json() : nlohmann::json{{"base", nullptr}, {"typed", typed}});
+  draft_.keep(text.empty() ? nlohmann::json() : typed);
 }
 
 void NotesDialog::showTyped() {
-  const nlohmann::json draft = session_.draft(draft_name);
-  if (!draft.is_object()) return;
-  const nlohmann::json& typed = draft.at("typed");
+  const nlohmann::json typed = draft_.typed();
+  if (!typed.is_object()) return;
   about_->setCurrentText(shownAbout(typed.value("about", std::string())));
   item_->setCurrentText(QString::fromStdString(typed.value("item", std::string())));
   text_->setPlainText(QString::fromStdString(typed.value("text", std::string())));

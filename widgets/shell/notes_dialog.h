@@ -3,7 +3,8 @@
 #pragma once
 
 #include <QDialog>
-#include <string>
+
+#include "widgets/commands/draft.h"
 
 class QComboBox;
 class QPlainTextEdit;
@@ -34,7 +35,7 @@ class NotesDialog : public QDialog {
  private:
   void refresh();
   void updateButtons();
-  /// What is typed and not added yet is on the disk with every letter (SessionModel::draft); the dialog begins with it.
+  /// What is typed and not added yet is on the disk with every letter; the dialog begins with it.
   void keepTyped();
   void showTyped();
   void add();
@@ -42,7 +43,7 @@ class NotesDialog : public QDialog {
 
   SessionModel& session_;
   CampaignUndo& undo_;
-  std::string draft_key_;  ///< of the campaign that the notes are about
+  WindowDraft draft_;
   RowsModel* rows_;
   QTableView* table_;
   QComboBox* about_;

@@ -136,7 +136,8 @@ void TestPartView::paintEvent(QPaintEvent*) {
   paintDrawing(painter, testPartDrawing(*part_, deviation_um_, options));
 }
 
-WhatIfWindow::WhatIfWindow(const MachineDescription& machine, QWidget* parent) : QDialog(parent), what_if_(machine) {
+WhatIfWindow::WhatIfWindow(const MachineDescription& machine, WindowDraft draft, QWidget* parent)
+    : QDialog(parent), what_if_(machine), draft_(std::move(draft)), kept_(draft_.typed()) {
   setWindowTitle(tr("What if"));
   resize(1280, 800);
   auto* column = new QVBoxLayout(this);
@@ -191,6 +192,7 @@ WhatIfWindow::WhatIfWindow(const MachineDescription& machine, QWidget* parent) :
   column->addWidget(makeSplitter(makeControls(), right, 3, 7), 1);
   connect(tabs_, &QTabWidget::currentChanged, this, [this] { refreshTable(what_if_.answer()); });
   connect(artefact_, &QComboBox::activated, this, [this] { refreshTable(what_if_.answer()); });
+  showKept();
   refresh();
 }
 
@@ -285,6 +287,7 @@ void WhatIfWindow::addControl(std::size_t parameter, QLabel* heading, QVBoxLayou
   connect(control.slider, &QSlider::valueChanged, this, [this, parameter](int step) {
     if (!filling_) changed(parameter, what_if_.parameters()[parameter].largest * step / what_if_steps);
   });
+  connect(control.slider, &QSlider::sliderReleased, this, &WhatIfWindow::keep);
   connect(control.box, &QDoubleSpinBox::valueChanged, this, [this, parameter](double value) {
     if (!filling_) changed(parameter, value);
   });
@@ -292,6 +295,13 @@ void WhatIfWindow::addControl(std::size_t parameter, QLabel* heading, QVBoxLayou
 }
 
 void WhatIfWindow::changed(std::size_t parameter, double value) {
+  put(parameter, value);
+  refresh();
+  // While a slider is held down every step of it would be written to the disk.
+  if (!controls_[parameter].slider->isSliderDown()) keep();
+}
+
+void WhatIfWindow::put(std::size_t parameter, double value) {
   filling_ = true;
   const Control& control = controls_[parameter];
   control.box->setValue(value);
@@ -299,7 +309,27 @@ void WhatIfWindow::changed(std::size_t parameter, double value) {
       static_cast<int>(std::lround(what_if_steps * value / what_if_.parameters()[parameter].largest)));
   filling_ = false;
   what_if_.set(parameter, value);
-  refresh();
+}
+
+void WhatIfWindow::keep() {
+  for (std::size_t i = 0; i < what_if_.parameters().size(); ++i) {
+    const std::string& id = what_if_.parameters()[i].id;
+    if (what_if_.value(i) != 0.0)
+      kept_[id] = what_if_.value(i);
+    else
+      kept_.erase(id);
+  }
+  draft_.keep(kept_.empty() ? nlohmann::json() : kept_);
+}
+
+void WhatIfWindow::showKept() {
+  if (!kept_.is_object()) kept_ = nlohmann::json::object();
+  for (std::size_t i = 0; i < what_if_.parameters().size(); ++i) {
+    const auto value = kept_.find(what_if_.parameters()[i].id);
+    const QDoubleSpinBox* box = controls_[i].box;
+    if (value != kept_.end() && value->is_number())
+      put(i, std::clamp(value->get<double>(), box->minimum(), box->maximum()));
+  }
 }
 
 void WhatIfWindow::set(const std::string& id, double value) {
@@ -315,6 +345,8 @@ void WhatIfWindow::reset() {
   filling_ = false;
   what_if_.reset();
   refresh();
+  kept_ = nlohmann::json::object();
+  keep();
 }
 
 void WhatIfWindow::filter(const QString& text) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // "What if": a slider for every error parameter and every effect of a machine; machine, part, probing points and
-// artefacts follow while it moves. Nothing of it goes into a session.
+// artefacts follow while it moves. No result comes of it; the values are kept as a draft.
 #pragma once
 
 #include <QDialog>
@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/workflows/what_if.h"
+#include "widgets/commands/draft.h"
 
 class QComboBox;
 class QDoubleSpinBox;
@@ -44,13 +45,16 @@ class TestPartView : public QWidget {
 class WhatIfWindow : public QDialog {
   Q_OBJECT
  public:
-  explicit WhatIfWindow(const MachineDescription& machine, QWidget* parent = nullptr);
+  /// `draft` is what it begins with and where its values are kept; values of parameters that this machine does not have
+  /// stay there.
+  explicit WhatIfWindow(const MachineDescription& machine, WindowDraft draft = {}, QWidget* parent = nullptr);
 
   /// As the user does with slider or box. Throws InputError for a parameter that there is not.
   void set(const std::string& id, double value);
   void reset();
   /// Shows the rows whose symbol, title or driver holds this text.
   void filter(const QString& text);
+  [[nodiscard]] const WindowDraft& draft() const { return draft_; }
   [[nodiscard]] const WhatIf& model() const { return what_if_; }
   [[nodiscard]] QSlider* slider(const std::string& id) const;
   [[nodiscard]] QDoubleSpinBox* box(const std::string& id) const;
@@ -75,6 +79,9 @@ class WhatIfWindow : public QDialog {
   QWidget* makeControls();
   void addControl(std::size_t parameter, QLabel* heading, QVBoxLayout* column);
   void changed(std::size_t parameter, double value);
+  void put(std::size_t parameter, double value);
+  void keep();
+  void showKept();
   void refresh();
   void refreshTable(const WhatIfAnswer& answer);
   void refreshMachine(const WhatIfAnswer& answer);
@@ -82,6 +89,8 @@ class WhatIfWindow : public QDialog {
   WhatIf what_if_;
   std::vector<Control> controls_;
   bool filling_ = false;
+  WindowDraft draft_;
+  nlohmann::json kept_;  ///< what is in it: a value for each parameter that is not zero
   QLineEdit* search_;
   View3D* view_;
   TestPartView* part_view_;

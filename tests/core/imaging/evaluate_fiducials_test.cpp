@@ -193,6 +193,19 @@ TEST_F(RenderedCampaign, DeviationHasTheSignAndSizeOfTheTruth) {
   EXPECT_NEAR(first["centre_of_rotation"]["x_px"]["value"].get<double>(), 365.0, 2.0);
   EXPECT_TRUE(first["axis_directions"].is_object());
   EXPECT_NEAR(e.details["fiducials"][0]["fcf_in_machine_rad"]["value"].get<double>(), 0.03, 0.005);
+  // The mean of what every fiducial tells in every state, weighted with what it knows.
+  double weights = 0.0, sum = 0.0;
+  for (const auto& fiducial : e.details["fiducials"]) {
+    for (const auto& state : fiducial["states"]) {
+      if (state["axis_directions"].is_null()) continue;
+      const nlohmann::json& one = state["axis_directions"]["orthogonality_urad"];
+      const double weight = std::pow(one["standard_uncertainty"].get<double>(), -2);
+      weights += weight;
+      sum += weight * one["value"].get<double>();
+    }
+  }
+  EXPECT_NEAR(e.details["orthogonality_urad"]["value"].get<double>(), sum / weights, 1e-6);
+  EXPECT_NEAR(e.details["orthogonality_urad"]["standard_uncertainty"].get<double>(), 1.0 / std::sqrt(weights), 1e-6);
 }
 
 TEST_F(RenderedCampaign, BadCapturesAreNamedAndTheRestIsEvaluated) {

@@ -309,6 +309,24 @@ TEST(NineParameterModel, SameSetTwiceDoesNotDiffer) {
   EXPECT_EQ(comparison.p_value_all, 1.0);
 }
 
+TEST(NineParameterModel, ComparesThePointsThatAreFittedWithAllOthers) {
+  Random random(14);
+  const std::vector<double> constants(24, 0.0);
+  ObservationSet set;
+  addState(set, "M1", eightFiducials(), someTruth(random), constants, 0.4, 0.9, random);
+  const auto compared = [&](const NineParameterOptions& options) {
+    return compareWithOthers(set, fitNineParameters(set, options), options);
+  };
+  EXPECT_FALSE(compared({.state = "M1", .points = {}}).has_value()) << "there are no others";
+  EXPECT_FALSE(compared({.state = "M1", .points = {"F1", "F2", "F3", "F4", "F5", "F6"}}).has_value())
+      << "two points determine no plane";
+  const NineParameterOptions a{.state = "M1", .points = {"F1", "F2", "F3", "F4"}};
+  const NineParameterOptions b{.state = "M1", .points = {"F5", "F6", "F7", "F8"}};
+  const auto others = compared(a);
+  ASSERT_TRUE(others.has_value());
+  EXPECT_EQ(others->difference, compareNineParameters(set, a, b).difference);
+}
+
 TEST(NineParameterModel, SaysWhichStateOrPointIsNotThere) {
   Random random(11);
   const std::vector<double> constants(24, 0.0);

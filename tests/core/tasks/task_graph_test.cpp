@@ -3,8 +3,11 @@
 
 #include <gmock/gmock.h>
 
+#include <set>
+
 #include "core/base/error.h"
 #include "core/tasks/report_task.h"
+#include "core/tasks/task_work.h"
 #include "tests/core/tasks/tasks_support.h"
 
 namespace spindrift {
@@ -14,6 +17,7 @@ using ::spindrift::testing::TaskSession;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 
 TEST(TaskGraph, WhatIsNeededRunsFirstAndWhatHoldsIsNotRunAgain) {
   TaskSession s;
@@ -226,6 +230,26 @@ TEST(TaskGraph, AResultThatDoesNotSayWhatItWasMadeFromIsNotTakenForCurrent) {
   s.session_.keepResult(origin, 1);
   EXPECT_EQ(s.status("evaluate").state, TaskState::Outdated);
   EXPECT_THAT(s.status("evaluate").changed, ElementsAre(HasSubstr("not known")));
+}
+
+TEST(TaskGraph, EveryTaskIsDeclaredOnceWithItsWorkAndWhatItMayDo) {
+  TaskSession s;
+  TaskInputs inputs;
+  inputs.campaign = std::make_shared<const Campaign>(s.graph().data());
+  std::vector<std::string> ids, starting;
+  for (const TaskKind& kind : taskKinds()) {
+    ids.emplace_back(kind.id);
+    if (kind.starts_programs) starting.emplace_back(kind.id);
+    try {
+      (void)prepareTask(std::string(kind.id), s.graph(), inputs);
+    } catch (const InputError& e) {
+      EXPECT_THAT(e.what(), Not(HasSubstr("no task of a campaign"))) << kind.id;
+    }
+  }
+  for (const std::string& task : s.graph().tasks()) EXPECT_NE(taskKind(task), nullptr) << task;
+  EXPECT_EQ(std::set<std::string>(ids.begin(), ids.end()).size(), ids.size());
+  EXPECT_THAT(starting, ElementsAre("simulation")) << "simulator.json names programs";
+  EXPECT_EQ(taskKind("coffee"), nullptr);
 }
 
 }  // namespace

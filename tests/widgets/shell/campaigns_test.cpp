@@ -4,18 +4,25 @@
 
 #include <QAction>
 #include <QPushButton>
+#include <QTableView>
 #include <QTest>
 #include <algorithm>
 
+#include "core/base/text.h"
+#include "core/machine/nine_parameter_model.h"
 #include "core/machine/observation.h"
 #include "tests/widgets/support/story_support.h"
 #include "widgets/commands/commands.h"
 #include "widgets/jobs/job_bar.h"
+#include "widgets/models/cells.h"
+#include "widgets/models/rows_model.h"
+#include "widgets/pages/compensate/compensate_page.h"
 #include "widgets/pages/discrepancy/discrepancy_page.h"
 #include "widgets/pages/page.h"
 #include "widgets/shell/command_palette.h"
 #include "widgets/shell/step_list.h"
 #include "widgets/shell/tour.h"
+#include "widgets/theme/numbers.h"
 
 namespace spindrift::gui {
 namespace {
@@ -72,6 +79,32 @@ class CampaignsTest : public StoryTest {
   }
   [[nodiscard]] QString whyNot(const char* title) { return command(title).why_not; }
   void trigger(const char* title) { command(title).run(); }
+  /// The pages of the models of the campaign at hand show what is stored for it.
+  void expectShownIsStored(const char* when) {
+    SCOPED_TRACE(when);
+    window_->workflow().goTo(StepId::Model);
+    wait();
+    const RowsModel* shown = nullptr;
+    for (const auto* table : window_->currentPage()->findChildren<QTableView*>())
+      if (table->accessibleName() == QLatin1String("Parameters"))
+        shown = qobject_cast<const RowsModel*>(table->model());
+    ASSERT_NE(shown, nullptr);
+    ASSERT_GE(shown->rowCount(), nine_parameter_count);
+    const nlohmann::json& fit = session().latest("fit")->payload.at("parameters");
+    for (std::size_t i = 0; i < nine_parameter_count; ++i) {
+      const nlohmann::json& stored = fit.at(std::string(nine_parameter_names[i]));
+      if (stored.at("value").is_null()) continue;
+      const std::string text = withUncertainty(stored.at("value"), stored.at("standard_uncertainty"),
+                                               nineParameterUnit(static_cast<int>(i)));
+      EXPECT_EQ(shown->rows()[i].cells[1].text, shownNumbers(fromCore(text))) << nine_parameter_names[i];
+    }
+    window_->workflow().goTo(StepId::Compensate);
+    wait();
+    auto* compensate = page<CompensatePage>();
+    ASSERT_NE(compensate, nullptr);
+    ASSERT_NE(compensate->plan(), nullptr);
+    EXPECT_EQ(compensate->plan()->json(), session().latest("compensation")->payload);
+  }
   [[nodiscard]] QAction* action(const char* title) {
     for (QAction* a : window_->findChildren<QAction*>())
       if (a->text().remove(QLatin1Char('&')) == QLatin1String(title)) return a;
@@ -243,6 +276,46 @@ TEST_F(CampaignsTest, RunningWhatIsOutdatedStopsWhenItIsCancelledOrAnotherCampai
   trigger("Run what is outdated");
   wait();
   EXPECT_TRUE(session().state("compensation").current);
+}
+
+TEST_F(CampaignsTest, WhatIsShownIsWhatIsStoredWhoeverRanIt) {
+  openTwo();
+  run(StepId::Model);
+  run(StepId::Compensate);
+  expectShownIsStored("run by the page");
+  select(second_);
+  window_->undoStack().push(new ExcludeCommand(session(), {QStringLiteral("M0/P2/EZ")}, QStringLiteral("disturbed")));
+  run(StepId::Model);
+  run(StepId::Compensate);
+  expectShownIsStored("of the other campaign");
+  select(first_);
+  expectShownIsStored("the first campaign again");
+  select(second_);
+  expectShownIsStored("the other campaign again");
+  for (const char* item : {"M0/P1/EZ", "M0/P4/EX"}) {
+    window_->undoStack().push(new ExcludeCommand(session(), {QLatin1String(item)}, QStringLiteral("disturbed")));
+    trigger("Run what is outdated");
+    wait();
+    expectShownIsStored("run from elsewhere");
+  }
+}
+
+TEST_F(CampaignsTest, AFitThatIsStoredIsWorkedOutAgainBesideTheWindow) {
+  openTwo();
+  run(StepId::Model);
+  const QString folder = QString::fromStdString(session().folder().string());
+  window_->workflow().goTo(StepId::Report);
+  wait();
+  window_->closeSession();
+  window_->open(folder);
+  wait();
+  QStringList begun;
+  QObject here;
+  QObject::connect(&window_->jobs(), &JobRunner::changed, &here, [&] { begun << running(); });
+  window_->workflow().goTo(StepId::Model);
+  (void)window_->currentPage();
+  wait();
+  EXPECT_TRUE(begun.contains(QStringLiteral("Reading the fit"))) << begun.join(", ").toStdString();
 }
 
 TEST_F(CampaignsTest, AFileThatWasChangedWhileTheSessionWasClosedIsSaidAndItsResultsAreOutdated) {

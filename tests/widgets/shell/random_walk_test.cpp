@@ -34,6 +34,7 @@
 #include "widgets/models/rows_model.h"
 #include "widgets/pages/compensate/compensate_page.h"
 #include "widgets/pages/discrepancy/discrepancy_page.h"
+#include "widgets/pages/kinematics/nine_parameter_page.h"
 #include "widgets/pages/machine/machine_page.h"
 #include "widgets/pages/report/report_page.h"
 #include "widgets/pages/verify/verify_page.h"
@@ -376,10 +377,22 @@ class RandomWalk : public StoryTest {
   /// What is shown is what is stored.
   void checkShown() {
     Page* now = window_->currentPage();
+    if (auto* page = qobject_cast<NineParameterPage*>(now); page != nullptr) {
+      const StoredResult* stored = session().latest("fit");
+      EXPECT_TRUE(page->fit() != nullptr || !session().state("fit").current);
+      for (int i = 0; page->fit() != nullptr && i < nine_parameter_count; ++i) {
+        ASSERT_NE(stored, nullptr);
+        const std::string name(nine_parameter_names[static_cast<std::size_t>(i)]);
+        const nlohmann::json& value = stored->payload.at("parameters").at(name).at("value");
+        EXPECT_EQ(page->fit()->determined(i) ? nlohmann::json(page->fit()->parameters[i]) : nlohmann::json(), value)
+            << name;
+      }
+      ++shown_;
+    }
     if (auto* page = qobject_cast<CompensatePage*>(now); page != nullptr && page->plan() != nullptr) {
       const StoredResult* stored = session().latest("compensation");
       ASSERT_NE(stored, nullptr);
-      EXPECT_EQ(page->plan()->json().at("rms_after_um"), stored->payload.at("rms_after_um"));
+      EXPECT_EQ(page->plan()->json(), stored->payload);
       ++shown_;
     }
     if (auto* page = qobject_cast<DiscrepancyPage*>(now); page != nullptr && page->story() != nullptr) {

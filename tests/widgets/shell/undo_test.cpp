@@ -4,17 +4,20 @@
 #include <QAction>
 #include <QCheckBox>
 #include <QComboBox>
+#include <QDoubleSpinBox>
 #include <QInputDialog>
 #include <QLineEdit>
 #include <QPlainTextEdit>
 #include <QPointer>
 #include <QPushButton>
 #include <QSignalSpy>
+#include <QSlider>
 #include <QTabWidget>
 #include <QTableView>
 #include <QTableWidget>
 #include <QTest>
 #include <QTimer>
+#include <QToolTip>
 
 #include "core/base/atomic_file.h"
 #include "core/tasks/task_options.h"
@@ -30,7 +33,10 @@
 #include "widgets/panels/discrepancy/effects_panel.h"
 #include "widgets/panels/machine/artefact_editor.h"
 #include "widgets/panels/machine/artefact_fields.h"
+#include "widgets/panels/scanning/artefact_designer.h"
 #include "widgets/shell/notes_dialog.h"
+#include "widgets/teaching/what_if_window.h"
+#include "widgets/view3d/view3d.h"
 
 namespace spindrift::gui {
 namespace {
@@ -130,7 +136,59 @@ class UndoTest : public StoryTest {
     window_->open(folder);
     settle();
   }
+  /// What was typed into a window beside the pages, which is closed, has to be there again after all that can come
+  /// between; `expect_kept` and `expect_empty` open it and look: of this campaign, and of another one.
+  void throughEverything(const std::function<QWidget*(const std::string& when)>& expect_kept,
+                         const std::function<QWidget*()>& expect_empty) {
+    const std::int64_t first = session().campaignId();
+    const auto look = [&](const char* when) {
+      session().selectCampaign(first);
+      settle();
+      expect_kept(when)->close();
+      settle();
+    };
+    look("closed");
+    const std::filesystem::path other = folder_ / "other";
+    std::filesystem::copy(session().campaign()->folder, other, std::filesystem::copy_options::recursive);
+    (void)folder_.write("other/note.txt", "so that its content is another");
+    QPointer<QWidget> open = expect_kept("before another campaign");
+    window_->addCampaign(QString::fromStdString(other.string()));
+    settle();
+    ASSERT_NE(session().campaignId(), first);
+    EXPECT_TRUE(open == nullptr || !open->isVisible()) << "it would be kept for the other campaign";
+    expect_empty()->close();
+    settle();
+    look("another campaign");
+    reopen();
+    look("the session opened again");
+    // What a crash leaves is what is on the disk while the window is open.
+    open = expect_kept("before the crash");
+    const std::filesystem::path crashed = folder_ / "crashed";
+    std::filesystem::copy(session().folder(), crashed, std::filesystem::copy_options::recursive);
+    window_->open(QString::fromStdString(crashed.string()));
+    settle();
+    ASSERT_EQ(session().folder(), crashed);
+    look("a crash");
+  }
 };
+
+TEST_F(UndoTest, AButtonThatHasNothingToRemoveSaysSo) {
+  const auto expectSaid = [&](const QWidget* in, QTableWidget* table, const char* text) {
+    const auto before = cells(table);
+    table->setCurrentCell(-1, -1);
+    QToolTip::hideText();
+    press(in, text);
+    EXPECT_EQ(QToolTip::text(), QStringLiteral("Choose a row of the table first.")) << text;
+    EXPECT_EQ(cells(table), before) << text;
+  };
+  ArtefactEditor* editor = artefacts();
+  expectSaid(editor, editor->styli(), "Remove stylus");
+  expectSaid(editor->fields(), editor->fields()->features(), "Remove row");
+  MachinePage* page = machinePage();
+  page->findChild<QTabWidget*>(QStringLiteral("machineTabs"))->setCurrentIndex(0);
+  expectSaid(page, table(page, "Measuring points"), "Remove point");
+  EXPECT_EQ(steps(), 0);
+}
 
 TEST_F(UndoTest, APointThatIsRemovedOrAddedComesBackAndGoes) {
   open(writeStoryCampaign(folder_, Hidden::Nothing), StepId::Machine);
@@ -353,40 +411,25 @@ TEST_F(UndoTest, NotesComeBackAsTheyWere) {
 
 TEST_F(UndoTest, ANoteThatIsBegunIsLostByNothing) {
   open(writeStoryCampaign(folder_, Hidden::Nothing), StepId::Model);
-  const std::int64_t first = session().campaignId();
   NotesDialog* dialog = window_->openNotes();
   dialog->about()->setCurrentText(stepTitle(StepId::Capture));
   dialog->item()->setCurrentText(QString::fromLatin1(a_reading));
   QTest::keyClicks(dialog->text(), QStringLiteral("The door was"));
-  const auto expectBegun = [&](const char* when) {
-    dialog = window_->openNotes();
-    EXPECT_EQ(dialog->text()->toPlainText(), QStringLiteral("The door was")) << when;
-    EXPECT_EQ(dialog->about()->currentText(), stepTitle(StepId::Capture)) << when;
-    EXPECT_EQ(dialog->item()->currentText(), QString::fromLatin1(a_reading)) << when;
-    EXPECT_TRUE(dialog->addButton()->isEnabled()) << when;
-    dialog->close();
-    settle();
-  };
   dialog->close();
-  settle();
-  expectBegun("closed");
-  const std::filesystem::path other = folder_ / "other";
-  std::filesystem::copy(session().campaign()->folder, other, std::filesystem::copy_options::recursive);
-  (void)folder_.write("other/note.txt", "so that its content is another");
-  QPointer<NotesDialog> open = window_->openNotes();
-  window_->addCampaign(QString::fromStdString(other.string()));
-  settle();
-  EXPECT_TRUE(open == nullptr || !open->isVisible()) << "it would add to the other campaign";
-  dialog = window_->openNotes();
-  EXPECT_EQ(dialog->text()->toPlainText(), QString()) << "it belongs to the other campaign";
-  dialog->close();
-  session().selectCampaign(first);
-  settle();
-  expectBegun("another campaign");
-  reopen();
-  session().selectCampaign(first);
-  settle();
-  expectBegun("the session opened again");
+  throughEverything(
+      [&](const std::string& when) -> QWidget* {
+        dialog = window_->openNotes();
+        EXPECT_EQ(dialog->text()->toPlainText(), QStringLiteral("The door was")) << when;
+        EXPECT_EQ(dialog->about()->currentText(), stepTitle(StepId::Capture)) << when;
+        EXPECT_EQ(dialog->item()->currentText(), QString::fromLatin1(a_reading)) << when;
+        EXPECT_TRUE(dialog->addButton()->isEnabled()) << when;
+        return dialog;
+      },
+      [&]() -> QWidget* {
+        dialog = window_->openNotes();
+        EXPECT_EQ(dialog->text()->toPlainText(), QString()) << "it belongs to the other campaign";
+        return dialog;
+      });
   dialog = window_->openNotes();
   QTest::keyClicks(dialog->text(), QStringLiteral(" open."));
   press(dialog, "Add the note");
@@ -399,6 +442,107 @@ TEST_F(UndoTest, ANoteThatIsBegunIsLostByNothing) {
   dialog = window_->openNotes();
   EXPECT_EQ(dialog->text()->toPlainText(), QString()) << "added";
   dialog->close();
+}
+
+TEST_F(UndoTest, WhatIsAskedOfTheMachineIsLostByNothing) {
+  open(writeStoryCampaign(folder_, Hidden::Nothing), StepId::Model);
+  WhatIfWindow* window = window_->openWhatIf();
+  QSlider* slider = window->slider("EC0Y_urad");
+  slider->setSliderDown(true);
+  slider->setSliderPosition(80);  // of 200 steps to 50 urad
+  slider->setSliderDown(false);
+  window->box("EXX_um_per_m")->setValue(3.5);
+  window->box("EYY_um_per_m")->setValue(1.0);
+  window->box("EYY_um_per_m")->setValue(0.0);
+  const nlohmann::json asked = window->model().json();
+  window->close();
+  throughEverything(
+      [&](const std::string& when) -> QWidget* {
+        window = window_->openWhatIf();
+        EXPECT_EQ(window->slider("EC0Y_urad")->value(), 80) << when;
+        EXPECT_EQ(window->box("EC0Y_urad")->value(), 20.0) << when;
+        EXPECT_EQ(window->box("EXX_um_per_m")->value(), 3.5) << when;
+        EXPECT_EQ(window->model().json(), asked) << when;
+        EXPECT_FALSE(window->machineView()->arrows().empty()) << when;
+        return window;
+      },
+      [&]() -> QWidget* {
+        window = window_->openWhatIf();
+        EXPECT_EQ(window->slider("EC0Y_urad")->value(), 0) << "it belongs to the other campaign";
+        EXPECT_TRUE(window->machineView()->arrows().empty());
+        return window;
+      });
+  window = window_->openWhatIf();
+  EXPECT_EQ(window_->openWhatIf(), window) << "two windows would keep each other's";
+  nlohmann::json machine = session().campaign()->machine.source;
+  machine["name"] = "another name";
+  QPointer<WhatIfWindow> old = window;
+  window_->undoStack().push(new MachineCommand(session(), machine));
+  window = window_->openWhatIf();
+  EXPECT_EQ(window->model().machine().name, "another name") << "the machine was edited";
+  EXPECT_TRUE(old == nullptr || !old->isVisible());
+  EXPECT_EQ(window->slider("EC0Y_urad")->value(), 80);
+  press(window, "All to zero");
+  window->close();
+  settle();
+  window = window_->openWhatIf();
+  EXPECT_EQ(window->slider("EC0Y_urad")->value(), 0) << "nothing is kept of what was put back";
+}
+
+TEST_F(UndoTest, ADesignThatIsBegunIsLostByNothing) {
+  const auto designer = [&] {
+    for (QAction* action : window_->findChildren<QAction*>())
+      if (action->text().contains(QStringLiteral("rtefact designer"))) action->trigger();
+    return window_->findChild<ArtefactDesigner*>();
+  };
+  open(writeStoryCampaign(folder_, Hidden::Nothing), StepId::Model);
+  ArtefactDesigner* window = designer();
+  ASSERT_NE(window, nullptr);
+  const double usual_mm = window->number("size x")->value();
+  window->chooseSurface(1);
+  window->number("size x")->setValue(17.5);
+  window->number("noise")->setValue(0.75);
+  window->number("step")->setValue(0.25);
+  window->close();
+  throughEverything(
+      [&](const std::string& when) -> QWidget* {
+        window = designer();
+        EXPECT_EQ(window->surface().bumps.size(), 2U) << when;
+        EXPECT_EQ(window->findChild<QComboBox*>()->currentIndex(), 1) << when;
+        EXPECT_EQ(window->number("size x")->value(), 17.5) << when;
+        EXPECT_EQ(window->surface().size_mm.x(), 17.5) << when;
+        EXPECT_EQ(window->number("noise")->value(), 0.75) << when;
+        EXPECT_EQ(window->number("step")->value(), 0.25) << when;
+        return window;
+      },
+      [&]() -> QWidget* {
+        window = designer();
+        EXPECT_EQ(window->number("size x")->value(), usual_mm) << "it belongs to the other campaign";
+        EXPECT_TRUE(window->surface().bumps.empty());
+        return window;
+      });
+  window = designer();
+  EXPECT_EQ(designer(), window) << "two windows would keep each other's";
+}
+
+TEST_F(UndoTest, WhatIsSetWithoutASessionIsKeptWithTheProgram) {
+  WhatIfWindow* window = window_->openWhatIf();
+  window->set("EC0Y_urad", 20.0);
+  open(writeStoryCampaign(folder_, Hidden::Nothing), StepId::Model);
+  EXPECT_TRUE(window->isVisible()) << "it is of no campaign";
+  WhatIfWindow* of_campaign = window_->openWhatIf();
+  EXPECT_NE(of_campaign, window);
+  EXPECT_EQ(of_campaign->box("EC0Y_urad")->value(), 0.0);
+  window->close();
+  of_campaign->close();
+  settle();
+  window_ = std::make_unique<MainWindow>();
+  window = window_->openWhatIf();
+  EXPECT_EQ(window->box("EC0Y_urad")->value(), 20.0);
+  window->reset();
+  window->close();
+  settle();
+  EXPECT_EQ(window_->openWhatIf()->box("EC0Y_urad")->value(), 0.0);
 }
 
 TEST_F(UndoTest, ANoteMakesTheReportOutdatedAndItsUndoDoesNot) {

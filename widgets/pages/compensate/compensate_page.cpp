@@ -153,11 +153,6 @@ CompensatePage::CompensatePage(PageContext page_context, QWidget* parent)
   content()->addWidget(stack_, 1);
   showHints(view_);
 
-  // Ids of campaigns and results start again in every session.
-  connect(&session(), &SessionModel::campaignChanged, this, [this] {
-    plan_.reset();
-    shown_result_ = 0;
-  });
   connect(compute_, &QPushButton::clicked, this, &CompensatePage::compute);
   connect(export_, &QPushButton::clicked, this, [this] {
     const QString folder = QFileDialog::getExistingDirectory(
@@ -246,14 +241,16 @@ void CompensatePage::fillChoices() {
 
 void CompensatePage::refresh() {
   if (session().campaign() == nullptr) return;
-  noticeCampaign();
+  if (noticeCampaign()) {
+    plan_.reset();
+    showPlan();
+  }
   callout()->setAction({}, {});
   const bool possible = session().observations() != nullptr && (hasSource(CompensationSource::NineParameters) ||
                                                                 hasSource(CompensationSource::CompletedModel));
   compute_->setEnabled(possible && canRun(compensation_result));
   if (!possible) {
     plan_.reset();
-    shown_result_ = 0;
     export_->setEnabled(false);
     empty_->setTexts(
         tr("There is no model to compensate with yet"),
@@ -265,15 +262,16 @@ void CompensatePage::refresh() {
   }
   stack_->setCurrentIndex(1);
   options_.fill([this] { fillChoices(); });
-  const auto stored = session().result(compensation_result);
-  if (!stored) {
-    plan_.reset();
-    showPlan();
+  const ShownTask stored = shown(compensation_result, tr("Reading the compensation"));
+  if (stored.reading) return;
+  plan_ = stored.as<CompensationPlan>();
+  showPlan();
+  if (!stored.state.there) {
     callout()->show(Tone::Accent, tr("Choose model and state, then press Calculate the compensation."));
     return;
   }
-  if (const ResultState state = session().state(compensation_result); !state.current) {
-    callout()->show(Tone::Outdated, tr("Changed since the compensation was calculated: %1.").arg(state.changed));
+  if (!stored.state.current) {
+    callout()->show(Tone::Outdated, tr("Changed since the compensation was calculated: %1.").arg(stored.state.changed));
     callout()->setAction(tr("Calculate again"), [this] { compute(); });
   } else {
     // A correction from a model that does not describe the state must not be given away unnoticed.
@@ -287,15 +285,7 @@ void CompensatePage::refresh() {
                         {{"source", static_cast<int>(CompensationSource::HigherOrder)}});
       });
     }
-    // The plan is worked out again from what is stored: it takes less time than reading it would.
-    if (std::exchange(shown_result_, stored->id) != stored->id && !plan_)
-      showAgain(tr("Reading the compensation"), "compensation");
   }
-  showPlan();
-}
-
-void CompensatePage::take(const TaskGiven& given) {
-  if (const auto plan = given.result.as<CompensationPlan>()) plan_ = *plan;
 }
 
 void CompensatePage::compute() {

@@ -3,7 +3,7 @@
 // each with its sign.
 #pragma once
 
-#include <optional>
+#include <memory>
 
 #include "core/workflows/compensation_workflow.h"
 #include "widgets/commands/bound_options.h"
@@ -38,15 +38,13 @@ class CompensatePage : public Page {
 
   /// Writes all files into a folder and says so.
   void exportFiles(const QString& folder);
-  [[nodiscard]] const CompensationPlan* plan() const { return plan_ ? &*plan_ : nullptr; }
+  [[nodiscard]] const CompensationPlan* plan() const { return plan_.get(); }
   [[nodiscard]] QComboBox* stateBox() const { return state_; }
   [[nodiscard]] QTableView* pointTable() const { return point_table_; }
   [[nodiscard]] View3D* view() const { return view_; }
 
  private:
   void compute();
-  /// `store`: keep the result in the session; else only show what is stored already.
-  void take(const TaskGiven& given) override;
   /// Everything the result depends on besides the files.
   [[nodiscard]] CompensationRequest request() const;
   [[nodiscard]] bool hasSource(CompensationSource source) const;
@@ -79,8 +77,7 @@ class CompensatePage : public Page {
   Segments* arrows_;
   QCheckBox* machine_;
   View3D* view_;
-  std::optional<CompensationPlan> plan_;
-  std::int64_t shown_result_ = 0;
+  std::shared_ptr<const CompensationPlan> plan_;
   BoundOptions options_;
 };
 

@@ -34,7 +34,7 @@ QString valueText(double value, double sigma) {
 }  // namespace
 
 void CompensatePage::showPlan() {
-  export_->setEnabled(plan_.has_value());
+  export_->setEnabled(plan_ != nullptr);
   if (!plan_) {
     for (NumberTile* tile : {before_, after_, expected_, largest_}) tile->set(QStringLiteral("–"));
     model_->clear();

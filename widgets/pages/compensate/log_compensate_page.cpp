@@ -71,60 +71,44 @@ LogCompensatePage::LogCompensatePage(PageContext page_context, QWidget* parent)
   showHints(plot_);
   showHints(live_->plot());
   connect(run_button_, &QPushButton::clicked, this, [this] { runTask(log_result); });
-  connect(&session(), &SessionModel::campaignChanged, this, [this] {
-    result_.reset();
-    result_model_ = 0;
-  });
-}
-
-std::int64_t LogCompensatePage::modelId() {
-  const StoredResult* model = session().latest("thermal");
-  return model == nullptr ? 0 : model->id;
-}
-
-void LogCompensatePage::take(const TaskGiven& given) {
-  const auto found = given.result.as<LogCompensation>();
-  if (found == nullptr || given.origin.inputs != session().begin(log_result).origin.inputs) return;  // another model
-  result_ = std::shared_ptr<const CompensatorRun>(found, &found->run);
-  model_ = std::shared_ptr<const ThermalModel>(found, &found->model);
-  result_model_ = modelId();
 }
 
 void LogCompensatePage::refresh() {
   if (session().campaign() == nullptr) return;
   live_->refresh();
-  const std::int64_t model = modelId();
-  run_button_->setEnabled(model != 0 && canRun(log_result));
-  if (result_model_ != model) result_.reset();
-  const ResultState state = session().state(log_result);
+  if (noticeCampaign()) {
+    result_.reset();
+    showResult();
+  }
+  const bool identified = session().latest("thermal") != nullptr;
+  run_button_->setEnabled(identified && canRun(log_result));
+  const ShownTask stored = shown(log_result, tr("Reading the compensation"));
+  if (stored.reading) return;
+  result_ = stored.as<LogCompensation>();
   const StepStatus& status = context().workflow.status(StepId::Compensate);
-  if (model == 0) {
+  if (!identified) {
     callout()->show(Tone::Attention, status.sentence);
-  } else if (result_ == nullptr && state.current) {
-    showAgain(tr("Reading the compensation"), log_result);
-    return;
-  } else if (result_ == nullptr || !state.current) {
-    callout()->show(state.there ? Tone::Outdated : Tone::Accent, status.sentence);
+  } else if (result_ == nullptr || !stored.state.current) {
+    callout()->show(stored.state.there ? Tone::Outdated : Tone::Accent, status.sentence);
   } else {
-    const QString unit = unitText(unitOfSignal(result_->output));
-    const bool better = result_->after_rms < result_->before_rms;
+    const CompensatorRun& run = result_->run;
+    const QString unit = unitText(unitOfSignal(run.output));
+    const bool better = run.after_rms < run.before_rms;
     // What speaks against the model is said before what it achieves.
     QString against;
-    for (const std::string& warning : result_->result.warnings) {
-      QString sentence = coreSentence(warning);
-      if (!sentence.isEmpty()) sentence[0] = sentence[0].toUpper();
-      against += sentence + QLatin1Char(' ');
+    for (const std::string& warning : run.result.warnings) {
+      against += sentenceStart(coreSentence(warning)) + QLatin1Char(' ');
     }
     callout()->show(
         better && against.isEmpty() ? Tone::Good : Tone::Attention,
         against + (better ? tr("In the test range %1 %3 rms remain of %2 %3. Export the thermal model for the control.")
-                                .arg(decimalText(result_->after_rms, 'g', 3))
-                                .arg(decimalText(result_->before_rms, 'g', 3))
+                                .arg(decimalText(run.after_rms, 'g', 3))
+                                .arg(decimalText(run.before_rms, 'g', 3))
                                 .arg(unit)
                           : tr("rms in the test range: %1 %3 with, %2 %3 without compensation: no improvement. Train "
                                "on a longer range with more excitation (Model).")
-                                .arg(decimalText(result_->after_rms, 'g', 3))
-                                .arg(decimalText(result_->before_rms, 'g', 3))
+                                .arg(decimalText(run.after_rms, 'g', 3))
+                                .arg(decimalText(run.before_rms, 'g', 3))
                                 .arg(unit)));
   }
   showResult();
@@ -136,7 +120,7 @@ void LogCompensatePage::showResult() {
     plot_->setContent({});
     return;
   }
-  const CompensatorRun& r = *result_;
+  const CompensatorRun& r = result_->run;
   const QString unit = unitText(unitOfSignal(r.output));
   const auto text = [&](double value) { return QStringLiteral("%1 %2").arg(decimalText(value, 'g', 3)).arg(unit); };
   before_->set(text(r.before_rms), tr("%1, about its mean").arg(fromCore(r.output)));
@@ -159,13 +143,12 @@ std::vector<Exportable> LogCompensatePage::exportables() {
     return {exportableOf(tr("Prediction and measurement, live"), live_->plot())};
   }
   const auto result = result_;
-  const auto model = model_;
   return {{tr("Thermal model"),
            {QStringLiteral("json")},
-           [model](const QString& file) { model->write(file.toStdString()); }},
+           [result](const QString& file) { result->model.write(file.toStdString()); }},
           {tr("Corrections over time"),
            {QStringLiteral("csv")},
-           [result](const QString& file) { result->result.write(file.toStdString()); }},
+           [result](const QString& file) { result->run.result.write(file.toStdString()); }},
           exportableOf(tr("Compensator over the log"), plot_)};
 }
 

@@ -24,17 +24,13 @@ class LogCompensatePage : public Page {
   [[nodiscard]] QPushButton* primaryButton() const override { return run_button_; }
   void runAll() override { runTask("log-compensation"); }
   [[nodiscard]] Plot* plot() const { return plot_; }
-  [[nodiscard]] const std::shared_ptr<const CompensatorRun>& result() const { return result_; }
+  [[nodiscard]] const CompensatorRun* result() const { return result_ == nullptr ? nullptr : &result_->run; }
   [[nodiscard]] LiveCompensationPanel* live() const { return live_; }
 
  private:
-  void take(const TaskGiven& given) override;
   void showResult();
-  [[nodiscard]] std::int64_t modelId();  ///< of the stored model, 0 if there is none
 
-  std::shared_ptr<const CompensatorRun> result_;
-  std::shared_ptr<const ThermalModel> model_;
-  std::int64_t result_model_ = 0;  ///< the model that result_ is of
+  std::shared_ptr<const LogCompensation> result_;
   QPushButton* run_button_;
   NumberTile* before_;
   NumberTile* after_;

@@ -16,7 +16,6 @@
 
 #include "core/base/text.h"
 #include "core/imaging/contrast_curve.h"
-#include "core/math/known_values.h"
 #include "core/workflows/evaluate_campaign.h"
 #include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
@@ -243,7 +242,6 @@ void FiducialCalibratePage::showChosenCheck() {
 void FiducialCalibratePage::showSets(const StoredEvaluation& evaluation) {
   const nlohmann::json& d = evaluation.details;
   std::vector<Row> rows;
-  std::vector<double> orthogonality, orthogonality_sigma;
   nlohmann::json centre;
   const QString chosen = fiducial_->currentText();
   fiducial_->clear();
@@ -267,12 +265,7 @@ void FiducialCalibratePage::showSets(const StoredEvaluation& evaluation) {
         scatter.text = decimalText(c["rms_um"].get<double>(), 'f', 2);
       }
       row.cells.push_back(scatter);
-      const nlohmann::json o = a.is_object() ? a.value("orthogonality_urad", nlohmann::json()) : nlohmann::json();
-      row.cells.push_back(cellOf(o));
-      if (o.is_object() && o["value"].is_number() && o["standard_uncertainty"].is_number()) {
-        orthogonality.push_back(o["value"].get<double>());
-        orthogonality_sigma.push_back(std::max(1e-6, o["standard_uncertainty"].get<double>()));
-      }
+      row.cells.push_back(cellOf(a.is_object() ? a.value("orthogonality_urad", nlohmann::json()) : nlohmann::json()));
       row.cells.push_back(f.is_object() ? cellOf(f.value("peak_z_um", nlohmann::json())) : dash());
       rows.push_back(std::move(row));
     }
@@ -299,9 +292,10 @@ void FiducialCalibratePage::showSets(const StoredEvaluation& evaluation) {
   } else {
     centre_->set(QStringLiteral("–"), tr("needs three spindle orientations"));
   }
-  if (!orthogonality.empty()) {
-    const WeightedMean mean = weightedMean(orthogonality, orthogonality_sigma);
-    axes_->set(shownNumbers(QString::fromStdString(withUncertainty(mean.value, mean.sigma, "urad"))),
+  const nlohmann::json mean = d.value("orthogonality_urad", nlohmann::json());
+  if (mean.is_object()) {
+    axes_->set(shownNumbers(
+                   QString::fromStdString(withUncertainty(mean.at("value"), mean.at("standard_uncertainty"), "urad"))),
                tr("deviation from 90°, mean of all fiducials"));
   } else {
     axes_->set(QStringLiteral("–"), tr("needs positions along both axes"));

@@ -22,8 +22,8 @@ constexpr int map_nodes = 120;
 
 std::optional<FieldGrid> NineParameterPage::mapGrid() {
   double z_mm = 0.0;
-  for (const NineParameterResidual& r : result_->residuals)
-    z_mm += r.position_mm.z() / static_cast<double>(result_->residuals.size());
+  const std::vector<NineParameterResidual>& residuals = result_->fit.residuals;
+  for (const NineParameterResidual& r : residuals) z_mm += r.position_mm.z() / static_cast<double>(residuals.size());
   auto grid = mapTable(session().campaign()->machine, z_mm, map_nodes);
   if (!grid) {
     field_.reset();
@@ -82,14 +82,15 @@ void NineParameterPage::showDifference(const NineParameterComparison& comparison
 
 void NineParameterPage::showField() {
   if (!result_ || session().campaign() == nullptr) return;
-  if (tabs_->currentWidget()->isAncestorOf(comparison_verdict_) && compared_) {
-    showDifference(*compared_);
+  if (tabs_->currentWidget()->isAncestorOf(comparison_verdict_) && result_->compared) {
+    showDifference(*result_->compared);
     return;
   }
-  const NineParameterFit& f = *result_;
+  const NineParameterFit& f = result_->fit;
+  const TableOrderChoice& order = result_->order;
   const NineParameterModel nine = f.predictingModel();
-  const bool higher = higher_->isChecked() && order_.richer();
-  const ErrorModel& model = higher ? static_cast<const ErrorModel&>(*order_.model) : nine;
+  const bool higher = higher_->isChecked() && order.richer();
+  const ErrorModel& model = higher ? static_cast<const ErrorModel&>(*order.model) : nine;
   const Component component = shown_components[static_cast<std::size_t>(component_->current())];
   std::vector<Eigen::Vector2d> measured;
   std::vector<ViewPoint> points;
@@ -149,7 +150,7 @@ void NineParameterPage::showField() {
   QString caption = tr("%1 of state %2 against %3")
                         .arg(name, QString::fromStdString(f.state),
                              QString::fromStdString(f.reference_state.empty() ? "zero" : f.reference_state));
-  if (higher) caption += QStringLiteral(", ") + coreSentence(orderText(order_.orders));
+  if (higher) caption += QStringLiteral(", ") + coreSentence(orderText(order.orders));
   view_->setCaption(caption);
 }
 

@@ -179,7 +179,10 @@ NineParameterOptions NineParameterPage::options() const {
 void NineParameterPage::refresh() {
   const auto campaign = session().campaign();
   if (campaign == nullptr) return;
-  if (noticeCampaign()) result_.reset();
+  if (noticeCampaign()) {
+    result_.reset();
+    showFit();
+  }
   const auto set = session().observations();
   QString chosen = QString::fromStdString(options().state);
   if (chosen.isEmpty() && set) chosen = QString::fromStdString(lastStateToFit(*set));
@@ -197,28 +200,21 @@ void NineParameterPage::refresh() {
     robust_->setCurrentIndex(static_cast<int>(options().robust));
   });
   fit_button_->setEnabled(set != nullptr && canRun("fit"));
+  fillPoints();
   if (!set) {
+    result_.reset();
+    showFit();
     callout()->show(Tone::Attention, tr("There are no observations yet. Evaluate the captures first."));
     callout()->setAction(tr("Go to Calibrate"), [this] { context().workflow.goTo(StepId::Calibrate); });
-    result_.reset();
-  } else if (!result_) {
-    // A stored fit is worked out again from its options: it takes milliseconds.
-    if (session().state("fit").current) {
-      try {
-        JobContext at_once;
-        const TaskInputs inputs = taskInputs();
-        take({"fit", session().begin("fit").origin, session().inputsKey(),
-              prepareTask("fit", session().tasks(), inputs)(at_once, TaskOutput::Detail)});
-      } catch (const InputError&) {
-        result_.reset();
-      }
-    }
+    return;
   }
-  fillPoints();
+  const ShownTask fit = shown("fit", tr("Reading the fit"));
+  if (fit.reading) return;
+  result_ = fit.as<NineParameterResult>();
   showFit();
-  const ResultState stored = session().state("fit");
-  if (result_ && stored.there && !stored.current)
-    callout()->show(Tone::Outdated, tr("Changed since this was fitted: %1. Fit the model again.").arg(stored.changed));
+  if (fit.state.there && !fit.state.current)
+    callout()->show(Tone::Outdated,
+                    tr("Changed since this was fitted: %1. Fit the model again.").arg(fit.state.changed));
 }
 
 void NineParameterPage::fillPoints() {
@@ -262,13 +258,6 @@ void NineParameterPage::fillPoints() {
   points_->setRows(std::move(rows));
 }
 
-void NineParameterPage::take(const TaskGiven& given) {
-  if (const auto found = given.result.as<NineParameterResult>()) {
-    result_ = found->fit;
-    order_ = found->order;
-  }
-}
-
 void NineParameterPage::showFit() {
   if (!result_) {
     parameters_->setRows({});
@@ -278,22 +267,21 @@ void NineParameterPage::showFit() {
     for (NumberTile* tile : {rms_fit_, rms_validation_, condition_}) tile->set(QStringLiteral("–"));
     higher_->setEnabled(false);
     view_->clear();
-    if (session().observations()) {
-      callout()->setAction({}, {});
-      callout()->show(Tone::Accent, tr("Choose the points that fit, then press Fit the model."));
-    }
+    callout()->setAction({}, {});
+    callout()->show(Tone::Accent, tr("Choose the points that fit, then press Fit the model."));
     return;
   }
-  const NineParameterFit& f = *result_;
+  const NineParameterFit& f = result_->fit;
+  const TableOrderChoice& order = result_->order;
   callout()->setAction({}, {});
   const QString message = coreSentence(f.message);
   QString warnings;
   for (const std::string& w : f.warnings) warnings += QLatin1Char(' ') + coreSentence(w);
-  higher_->setEnabled(order_.richer());
-  const QString order = sentenceStart(coreSentence(order_.reason));
-  higher_->setToolTip(order);
+  higher_->setEnabled(order.richer());
+  const QString reason = sentenceStart(coreSentence(order.reason));
+  higher_->setToolTip(reason);
   if (f.status == FitStatus::Converged) {
-    if (order_.richer() || !warnings.isEmpty()) warnings += QLatin1Char(' ') + order;
+    if (order.richer() || !warnings.isEmpty()) warnings += QLatin1Char(' ') + reason;
     if (!warnings.isEmpty()) {
       callout()->show(Tone::Attention, warnings.trimmed());
     } else {
@@ -321,8 +309,8 @@ void NineParameterPage::showFit() {
     row.cells = {name, value, {meaningOf(i)}};
     rows.push_back(std::move(row));
   }
-  if (order_.richer()) {
-    const std::vector<std::string> names = order_.model->basis().names();
+  if (order.richer()) {
+    const std::vector<std::string> names = order.model->basis().names();
     for (std::size_t i = nine_parameter_count; i < names.size(); ++i) {
       const auto e = static_cast<Eigen::Index>(i);
       Row row;
@@ -330,7 +318,7 @@ void NineParameterPage::showFit() {
       text.chop(3);  // _um
       row.id = text;
       row.cells = {{text.replace(QLatin1Char('_'), QLatin1Char(' '))},
-                   parameterCell(order_.model->parameters()(e), std::sqrt(order_.model->covariance()(e, e)), "um"),
+                   parameterCell(order.model->parameters()(e), std::sqrt(order.model->covariance()(e, e)), "um"),
                    {tr("of higher order: at the edge of the measured points")}};
       rows.push_back(std::move(row));
     }
@@ -343,10 +331,9 @@ void NineParameterPage::showFit() {
         QString::fromStdString(r.point) + QLatin1Char('/') + QString::fromStdString(std::string(toString(r.component)));
     Cell name{QString::fromStdString(r.point)};
     name.bold = true;
-    const double ratio = r.sigma_um > 0 ? r.residual_um / r.sigma_um : 0;
-    Cell in_sigma{decimalText(std::abs(ratio), 'f', 1)};
+    Cell in_sigma{decimalText(std::abs(r.inSigmas()), 'f', 1)};
     in_sigma.right = true;
-    if (std::abs(ratio) > 3) {
+    if (r.outlying()) {
       in_sigma.tone = Tone::Attention;
       in_sigma.icon = "alert";
     }
@@ -377,58 +364,40 @@ void NineParameterPage::showFit() {
 
 void NineParameterPage::showComparison() {
   comparison_->setRows({});
-  compared_.reset();
-  const auto set = session().observations();
-  if (!set || !result_) return;
-  NineParameterOptions a = options();
-  NineParameterOptions b = a;
-  b.points.clear();
-  for (const Row& row : points_->rows()) {
-    if (!row.cells[0].checked.value_or(true)) b.points.push_back(row.id.toStdString());
-  }
-  if (a.points.empty() || b.points.size() < 3) {
-    comparison_verdict_->show(
+  if (!result_->not_compared.empty()) return comparison_verdict_->show(Tone::Bad, coreSentence(result_->not_compared));
+  if (!result_->compared)
+    return comparison_verdict_->show(
         Tone::Neutral, tr("Uncheck at least three points: the checked set is then compared with the other one."));
-    return;
+  const NineParameterComparison& c = *result_->compared;
+  std::vector<Row> rows;
+  QStringList differing;
+  for (int i = 0; i < nine_parameter_count; ++i) {
+    const auto cell = [&](bool known, double value, double sigma) {
+      return known ? parameterCell(value, sigma, nineParameterUnit(i)) : Cell{QStringLiteral("–")};
+    };
+    const bool known = c.a.determined(i) && c.b.determined(i);
+    Row row;
+    row.cells = {nameCell(parameterLabel(std::string(nine_parameter_names[static_cast<std::size_t>(i)]))),
+                 cell(c.a.determined(i), c.a.parameters[i], c.a.standardUncertainty(i)),
+                 cell(c.b.determined(i), c.b.parameters[i], c.b.standardUncertainty(i)),
+                 cell(known, c.difference[i], std::sqrt(std::max(0.0, c.covariance(i, i)))),
+                 {known ? decimalText(c.p_value[static_cast<std::size_t>(i)], 'g', 2) : QStringLiteral("–")}};
+    if (std::find(c.significant.begin(), c.significant.end(), i) != c.significant.end()) {
+      row.cells[3].tone = Tone::Attention;
+      row.cells[3].icon = "alert";
+      differing << parameterName(i);
+    }
+    rows.push_back(std::move(row));
   }
-  try {
-    const NineParameterComparison c = compareNineParameters(*set, a, b);
-    std::vector<Row> rows;
-    QStringList differing;
-    for (int i = 0; i < nine_parameter_count; ++i) {
-      Row row;
-      Cell name{parameterLabel(std::string(nine_parameter_names[static_cast<std::size_t>(i)]))};
-      name.bold = true;
-      const bool known = c.a.determined(i) && c.b.determined(i);
-      row.cells = {
-          name,
-          c.a.determined(i) ? parameterCell(c.a.parameters[i], c.a.standardUncertainty(i), nineParameterUnit(i))
-                            : Cell{QStringLiteral("–")},
-          c.b.determined(i) ? parameterCell(c.b.parameters[i], c.b.standardUncertainty(i), nineParameterUnit(i))
-                            : Cell{QStringLiteral("–")},
-          known ? parameterCell(c.difference[i], std::sqrt(std::max(0.0, c.covariance(i, i))), nineParameterUnit(i))
-                : Cell{QStringLiteral("–")},
-          {known ? decimalText(c.p_value[static_cast<std::size_t>(i)], 'g', 2) : QStringLiteral("–")}};
-      if (std::find(c.significant.begin(), c.significant.end(), i) != c.significant.end()) {
-        row.cells[3].tone = Tone::Attention;
-        row.cells[3].icon = "alert";
-        differing << parameterName(i);
-      }
-      rows.push_back(std::move(row));
-    }
-    comparison_->setRows(std::move(rows));
-    compared_ = c;
-    if (differing.isEmpty()) {
-      comparison_verdict_->show(Tone::Good,
-                                tr("Both sets of points give the same model within their uncertainty (p = %1).")
-                                    .arg(decimalText(c.p_value_all, 'g', 2)));
-    } else {
-      comparison_verdict_->show(
-          Tone::Attention, tr("The sets differ in %1: one of them contains an error that the model does not describe.")
-                               .arg(differing.join(QStringLiteral(", "))));
-    }
-  } catch (const InputError& e) {
-    comparison_verdict_->show(Tone::Bad, coreSentence(e.what()));
+  comparison_->setRows(std::move(rows));
+  if (differing.isEmpty()) {
+    comparison_verdict_->show(Tone::Good,
+                              tr("Both sets of points give the same model within their uncertainty (p = %1).")
+                                  .arg(decimalText(c.p_value_all, 'g', 2)));
+  } else {
+    comparison_verdict_->show(
+        Tone::Attention, tr("The sets differ in %1: one of them contains an error that the model does not describe.")
+                             .arg(differing.join(QStringLiteral(", "))));
   }
 }
 

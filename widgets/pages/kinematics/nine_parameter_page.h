@@ -34,13 +34,13 @@ class NineParameterPage : public Page {
   void setComponent(int index);
   [[nodiscard]] View3D* view() const { return view_; }
   [[nodiscard]] QCheckBox* higherOrderBox() const { return higher_; }
-  [[nodiscard]] const TableOrderChoice& orderChoice() const { return order_; }
+  /// Null: none is shown.
+  [[nodiscard]] const NineParameterFit* fit() const { return result_ == nullptr ? nullptr : &result_->fit; }
+  [[nodiscard]] TableOrderChoice orderChoice() const { return result_ ? result_->order : TableOrderChoice(); }
   [[nodiscard]] const Field* field() const { return field_.get(); }
 
  private:
-  void readOptions();
   void fillPoints();
-  void take(const TaskGiven& given) override;
   void showFit();
   void showField();
   void showDifference(const NineParameterComparison& comparison);
@@ -63,7 +63,6 @@ class NineParameterPage : public Page {
   NumberTile* rms_validation_;
   NumberTile* condition_;
   QTabWidget* tabs_;
-  std::optional<NineParameterComparison> compared_;  ///< the checked points against the others
   Callout* comparison_verdict_;
   Segments* component_;
   QCheckBox* arrows_;
@@ -72,10 +71,7 @@ class NineParameterPage : public Page {
   QCheckBox* relief_;
   View3D* view_;
   QCheckBox* higher_;  ///< draw the model of higher order; enabled where the evidence asks for one
-  std::optional<NineParameterFit> result_;
-  TableOrderChoice order_;  ///< what the evidence says of result_
-  std::string result_error_;
-  bool fitted_now_ = false;
+  std::shared_ptr<const NineParameterResult> result_;
   std::shared_ptr<const Field> field_;
   BoundOptions options_;
 };

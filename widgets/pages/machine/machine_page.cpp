@@ -200,11 +200,7 @@ MachinePage::MachinePage(PageContext page_context, QWidget* parent)
     points_->setCurrentCell(row, 2);
     markEdited(tr("add a point"));
   });
-  connect(remove, &QPushButton::clicked, this, [this] {
-    if (points_->currentRow() < 0) return;
-    points_->removeRow(points_->currentRow());
-    markEdited(tr("remove a point"));
-  });
+  makeRemoving(remove, points_, [this] { markEdited(tr("remove a point")); });
   connect(suggest_, &QPushButton::clicked, this, &MachinePage::suggestPoints);
   connect(apply_, &QPushButton::clicked, this, &MachinePage::apply);
   connect(discard_, &QPushButton::clicked, this, &MachinePage::discard);

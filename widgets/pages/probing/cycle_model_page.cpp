@@ -101,12 +101,6 @@ CycleModelPage::CycleModelPage(PageContext page_context, QWidget* parent)
   });
 }
 
-void CycleModelPage::take(const TaskGiven& given) {
-  if (given.inputs != results_.key()) return;  // of inputs that are no more
-  evaluation_ = given.result.as<TouchEvaluation>();
-  evaluated_key_ = given.inputs;
-}
-
 TaskInputs CycleModelPage::taskInputs() {
   TaskInputs inputs = session().taskInputs();
   inputs.touches = results_.touches();
@@ -154,13 +148,14 @@ void CycleModelPage::refresh() {
     return;
   }
   callout()->setAction({}, {});
-  const ResultState state = session().state("fit");
+  const ShownTask stored = shown("fit", tr("Reading the cycles"));
+  if (stored.reading) return;
+  evaluation_ = stored.as<TouchEvaluation>();
+  const ResultState& state = stored.state;
   const CycleEvaluation* cycles = cyclesOf(evaluation_.get());
-  if (cycles == nullptr || (state.current && evaluated_key_ != results_.key())) {
-    if (state.current) {
-      showAgain(tr("Reading the cycles"), "fit");
-    } else if (state.there) {
-      clear();
+  if (cycles == nullptr) {
+    clear();
+    if (state.there) {
       callout()->show(Tone::Outdated, tr("Changed since: %1. Fit all cycles again.").arg(state.changed));
     } else {
       callout()->show(Tone::Accent, tr("Press Fit all cycles. One least squares over all touches separates the errors; "

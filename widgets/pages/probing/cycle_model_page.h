@@ -45,7 +45,6 @@ class CycleModelPage : public Page {
  private:
   [[nodiscard]] QWidget* makeVolumePart();
   [[nodiscard]] QWidget* makeBarPart();
-  void take(const TaskGiven& given) override;
   [[nodiscard]] TaskInputs taskInputs() override;
   void clear();
   void showTrends();
@@ -56,7 +55,6 @@ class CycleModelPage : public Page {
 
   TouchResults& results_;
   std::shared_ptr<const TouchEvaluation> evaluation_;
-  std::string evaluated_key_;  ///< names the inputs of evaluation_
   std::shared_ptr<const Field> field_;
   QPushButton* fit_;
   QComboBox* cycle_;

@@ -120,11 +120,7 @@ TouchEvaluationPage::TouchEvaluationPage(PageContext page_context, QWidget* pare
 }
 
 void TouchEvaluationPage::take(const TaskGiven& given) {
-  const auto detail = given.result.as<EvaluationDetail>();
-  if (detail == nullptr || given.inputs != results_.key()) return;  // of inputs that are no more
-  details_ = *detail;
-  details_key_ = given.inputs;
-  results_.set(given.inputs, detail->touches);
+  if (const auto detail = given.result.as<EvaluationDetail>()) results_.set(given.inputs, detail->touches);
 }
 
 TaskInputs TouchEvaluationPage::taskInputs() {
@@ -149,7 +145,6 @@ void TouchEvaluationPage::refresh() {
   if (session().campaign() == nullptr) return;
   if (noticeCampaign()) {
     details_ = {};
-    details_key_.clear();
     clear();
   }
   if (results_.touches() == nullptr) {
@@ -163,7 +158,8 @@ void TouchEvaluationPage::refresh() {
                                      "evaluated."));
     return;
   }
-  const ResultState state = session().state("evaluate");
+  const ShownTask beside = shown("evaluate", tr("Reading the evaluation"));
+  const ResultState& state = beside.state;
   if (!state.current) {
     callout()->show(Tone::Outdated, tr("Changed since this was evaluated: %1. Evaluate again.").arg(state.changed));
   } else if (!stored->good_enough || !stored->warnings.empty()) {
@@ -175,10 +171,13 @@ void TouchEvaluationPage::refresh() {
   } else {
     callout()->show(Tone::Good, tr("Deviations found: %1, no warnings.").arg(stored->observations.rows.size()));
   }
+  if (!beside.reading) {
+    const auto given = beside.as<EvaluationDetail>();
+    details_ = given == nullptr ? EvaluationDetail() : *given;
+    if (given == nullptr) clear();
+  }
   const CycleEvaluation* cycles = cyclesOf(details_.touches.get());
-  const bool other_inputs = state.current && details_key_ != results_.key();
-  if (other_inputs) showAgain(tr("Reading the evaluation"), "evaluate");
-  if (other_inputs || cycles == nullptr) {
+  if (beside.reading || cycles == nullptr) {
     showDeviations();
     return;
   }

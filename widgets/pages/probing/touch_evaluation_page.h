@@ -51,7 +51,6 @@ class TouchEvaluationPage : public Page {
 
   TouchResults& results_;
   EvaluationDetail details_;
-  std::string details_key_;  ///< names their inputs (TouchResults::key)
   QPushButton* evaluate_;
   NumberTile* used_;
   NumberTile* noise_;

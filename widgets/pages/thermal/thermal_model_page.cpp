@@ -222,10 +222,6 @@ void ThermalModelPage::load() {
           });
 }
 
-void ThermalModelPage::take(const TaskGiven& given) {
-  if (given.inputs == session().inputsKey()) result_ = given.result.as<IdentifyResult>();
-}
-
 TaskInputs ThermalModelPage::taskInputs() {
   TaskInputs inputs = session().taskInputs();
   if (loaded_ == inputsKey()) inputs.series = series_;
@@ -252,13 +248,11 @@ void ThermalModelPage::refresh() {
   options_.fill([this] { fillChoices(); });
   iso_->set(series_);
   const auto sigma = sigma_.find(request().output);
+  const ShownTask stored = shown("thermal", tr("Reading the model"));
+  if (!stored.reading) result_ = stored.as<IdentifyResult>();
   updates_->set(series_, result_, sigma == sigma_.end() ? 0.5 : sigma->second);
-  const ResultState state = session().state("thermal");
-  if (result_ == nullptr && state.current) {
-    showAgain(tr("Reading the model"), "thermal");
-    showSeries();
-    return;
-  }
+  if (stored.reading) return showSeries();
+  const ResultState& state = stored.state;
   if (result_ == nullptr) {
     callout()->show(state.there ? Tone::Outdated : Tone::Accent,
                     state.there ? tr("Changed since: %1. Identify the model again.").arg(state.changed)

@@ -51,7 +51,6 @@ class ThermalModelPage : public Page {
   void load();
   /// Names what the series is made of: it is read again when this changes.
   [[nodiscard]] std::string inputsKey();
-  void take(const TaskGiven& given) override;
   [[nodiscard]] TaskInputs taskInputs() override;
   void clear();
   void fillChoices();

@@ -224,36 +224,31 @@ void VerifyPage::runAll() {
   if (!optionsJson()["after"].get<std::string>().empty()) runTask("verify");
 }
 
-void VerifyPage::take(const TaskGiven& given) {
-  result_ = given.result.as<VerifyResult>();
-}
-
 void VerifyPage::refresh() {
   const auto campaign = session().campaign();
   if (campaign == nullptr) return;
-  if (loaded_ != campaign->folder.string()) {
-    loaded_ = campaign->folder.string();
+  if (noticeCampaign()) {
     result_.reset();
+    showResult();
   }
   options_.fill([this] { fillChoices(); });
   const nlohmann::json now = optionsJson();
   const bool chosen = !now["after"].get<std::string>().empty();
   const bool measured = session().observations() != nullptr;
   compare_->setEnabled(chosen && measured && canRun("verify"));
-  const ResultState state = session().state("verify");
+  const ShownTask stored = shown("verify", tr("Reading the comparison"));
+  if (stored.reading) return;
+  result_ = stored.as<VerifyResult>();
   if (!measured) {
     callout()->set(Tone::Neutral, context().workflow.status(StepId::Verify).sentence);
-  } else if (result_ == nullptr && state.current && chosen) {
-    showAgain(tr("Reading the comparison"), "verify");
-    return;
   } else if (!chosen) {
     callout()->show(Tone::Accent,
                     tr("Load the corrections into the control, switch the compensation on and measure the same plan "
                        "again. Then choose that campaign here; its log says compensation_on = 1."));
   } else if (result_ == nullptr) {
-    callout()->show(state.there ? Tone::Outdated : Tone::Accent, tr("Press Compare before and after."));
-  } else if (!state.current) {
-    callout()->show(Tone::Outdated, tr("Changed since: %1. Compare again.").arg(state.changed));
+    callout()->show(stored.state.there ? Tone::Outdated : Tone::Accent, tr("Press Compare before and after."));
+  } else if (!stored.state.current) {
+    callout()->show(Tone::Outdated, tr("Changed since: %1. Compare again.").arg(stored.state.changed));
   } else {
     QString text = coreSentence(result_->reason);
     for (const std::string& note : result_->notes) text += QLatin1Char(' ') + coreSentence(note);

@@ -44,14 +44,12 @@ class VerifyPage : public Page {
   [[nodiscard]] QWidget* makeChoices();
   [[nodiscard]] nlohmann::json optionsJson() const;
   void fillChoices();
-  void take(const TaskGiven& given) override;
   void showResult();
   /// Curves and table of the points, of the component that is chosen.
   void showPlot();
   void showMaps();
 
   std::shared_ptr<const VerifyResult> result_;
-  std::string loaded_;
 
   QPushButton* compare_;
   QComboBox* after_;

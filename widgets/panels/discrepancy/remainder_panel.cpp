@@ -10,7 +10,6 @@
 #include <cmath>
 #include <optional>
 
-#include "core/math/known_values.h"
 #include "core/workflows/discrepancy_sizes.h"
 #include "widgets/common/parts.h"
 #include "widgets/models/cells.h"
@@ -166,21 +165,15 @@ void RemainderPanel::fillPoints() {
   std::string clearest;
   for (const DiscrepancySeries& s : story_->series) {
     if (s.component != component_ || s.time_s.empty()) continue;
-    const double size = rootMeanSquareOfKnown(s.remaining);
+    const double size = s.remainingRms();
     Row row;
     row.id = QString::fromStdString(s.point);
     Cell name{row.id};
     name.bold = true;
     row.cells = {name, rightCell(sizeText(size, {})), rightCell(QStringLiteral("–")), rightCell(QStringLiteral("–"))};
-    if (size > 0.0) {
-      const auto size_of = [](double v) { return std::isfinite(v) ? std::abs(v) : -1.0; };
-      const auto most = std::max_element(s.remaining.begin(), s.remaining.end(),
-                                         [&](double a, double b) { return size_of(a) < size_of(b); });
-      row.cells[2] = rightCell(sizeText(*most, {}));
-      row.cells[3] = rightCell(
-          tr("%1 %2")
-              .arg(decimalText(s.time_s[static_cast<std::size_t>(most - s.remaining.begin())] / time.seconds, 'f', 1))
-              .arg(time.name));
+    if (const auto most = s.largestRemaining(); most && size > 0.0) {
+      row.cells[2] = rightCell(sizeText(s.remaining[*most], {}));
+      row.cells[3] = rightCell(tr("%1 %2").arg(decimalText(s.time_s[*most] / time.seconds, 'f', 1)).arg(time.name));
     }
     if (std::isfinite(size) && size > largest_rms) {
       largest_rms = size;

@@ -122,11 +122,7 @@ ArtefactEditor::ArtefactEditor(PageContext page_context, QWidget* parent)
     styli_->setCurrentCell(row, 1);
     changed(tr("add a stylus"));
   });
-  connect(remove_stylus, &QPushButton::clicked, this, [this] {
-    if (styli_->currentRow() < 0) return;
-    styli_->removeRow(styli_->currentRow());
-    changed(tr("remove a stylus"));
-  });
+  makeRemoving(remove_stylus, styli_, [this] { changed(tr("remove a stylus")); });
   connect(discard_, &QPushButton::clicked, this, &ArtefactEditor::discard);
   connect(apply_, &QPushButton::clicked, this, &ArtefactEditor::apply);
 }

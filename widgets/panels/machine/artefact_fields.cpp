@@ -91,7 +91,10 @@ ArtefactFields::ArtefactFields(QWidget* parent) : QWidget(parent) {
   buttons->addStretch();
   column->addLayout(buttons);
   connect(add, &QPushButton::clicked, this, &ArtefactFields::addFeature);
-  connect(remove, &QPushButton::clicked, this, &ArtefactFields::removeFeature);
+  makeRemoving(remove, features_, [this] {
+    showDistances();
+    Q_EMIT edited();
+  });
   connect(features_, &QTableWidget::itemChanged, this, [this] {
     if (filling_) return;
     showDistances();
@@ -273,13 +276,6 @@ void ArtefactFields::addFeature() {
   filling_ = false;
   showDistances();
   features_->setCurrentCell(row, holes_ ? 1 : 2);
-  Q_EMIT edited();
-}
-
-void ArtefactFields::removeFeature() {
-  if (features_->currentRow() < 0) return;
-  features_->removeRow(features_->currentRow());
-  showDistances();
   Q_EMIT edited();
 }
 

@@ -34,7 +34,6 @@ class ArtefactFields : public QWidget {
   void addField(QGridLayout* form, int row, int column, const QString& title, const std::string& key, int parts,
                 const QString& tip);
   void addFeature();
-  void removeFeature();
   void showDistances();
 
   std::map<std::string, std::vector<QLineEdit*>> fields_;

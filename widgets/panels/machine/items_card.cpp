@@ -5,6 +5,7 @@
 #include <QPushButton>
 #include <QTableView>
 
+#include "widgets/common/editor_table.h"
 #include "widgets/common/words.h"
 #include "widgets/models/cells.h"
 #include "widgets/models/rows_model.h"
@@ -40,9 +41,9 @@ ItemsCard::ItemsCard(QWidget* parent) : Card(tr("What is there"), parent) {
     QMetaObject::invokeMethod(
         this, [this, id, on] { Q_EMIT ticked(id, on); }, Qt::QueuedConnection);
   });
-  connect(add, &QPushButton::clicked, this, [this] {
+  connect(add, &QPushButton::clicked, this, [this, add] {
     const QString item = filter_->text().trimmed();
-    if (item.isEmpty()) return;
+    if (item.isEmpty()) return sayBeside(add, tr("Type the address of the data item beside this button first."));
     filter_->clear();
     Q_EMIT ticked(item, true);
   });

@@ -47,7 +47,7 @@ QString lengthText(double um) {
 
 }  // namespace
 
-ArtefactDesigner::ArtefactDesigner(QWidget* parent) : QDialog(parent) {
+ArtefactDesigner::ArtefactDesigner(WindowDraft draft, QWidget* parent) : QDialog(parent), draft_(std::move(draft)) {
   setWindowTitle(tr("Artefact designer"));
   resize(1240, 860);
   auto* column = new QVBoxLayout(this);
@@ -101,7 +101,9 @@ ArtefactDesigner::ArtefactDesigner(QWidget* parent) : QDialog(parent) {
   connect(kind_, &QComboBox::activated, this, &ArtefactDesigner::chooseSurface);
   connect(colouring_, &Segments::chosen, this, &ArtefactDesigner::showSurface);
   connect(stl, &QPushButton::clicked, this, &ArtefactDesigner::askForStl);
-  chooseSurface(0);
+  fillForm(0);
+  showKept();
+  recompute();
 }
 
 void ArtefactDesigner::showEvent(QShowEvent* event) {
@@ -125,11 +127,20 @@ void ArtefactDesigner::addNumber(QFormLayout* form, const std::string& name, con
   form->addRow(name_of, box);
   numbers_[name] = box;
   connect(box, &QDoubleSpinBox::valueChanged, this, [this] {
-    if (!filling_) timer_.start();
+    if (filling_) return;
+    timer_.start();
+    keep();
   });
 }
 
 void ArtefactDesigner::chooseSurface(int index) {
+  fillForm(index);
+  keep();
+  recompute();
+  view_->resetCamera(StandardView::Isometric);
+}
+
+void ArtefactDesigner::fillForm(int index) {
   surface_ = surfaces()[static_cast<std::size_t>(index)];
   kind_->setCurrentIndex(index);
   filling_ = true;
@@ -141,8 +152,25 @@ void ArtefactDesigner::chooseSurface(int index) {
   numbers_.at("wave y")->setValue(surface_.wave_number_y_per_mm);
   numbers_.at("amplitude xy")->setValue(surface_.amplitude_xy_mm);
   filling_ = false;
-  recompute();
-  view_->resetCamera(StandardView::Isometric);
+}
+
+void ArtefactDesigner::keep() {
+  nlohmann::json numbers = nlohmann::json::object();
+  for (const auto& [name, box] : numbers_) numbers[name] = box->value();
+  draft_.keep({{"surface", kind_->currentIndex()}, {"numbers", numbers}});
+}
+
+void ArtefactDesigner::showKept() {
+  const nlohmann::json kept = draft_.typed();
+  if (!kept.is_object() || !kept.contains("numbers") || !kept.contains("surface")) return;
+  const nlohmann::json& surface = kept.at("surface");
+  if (surface.is_number_integer() && surface >= 0 && surface < kind_->count()) fillForm(surface.get<int>());
+  filling_ = true;
+  for (const auto& [name, value] : kept.at("numbers").items()) {
+    const auto found = numbers_.find(name);
+    if (found != numbers_.end() && value.is_number()) found->second->setValue(value.get<double>());
+  }
+  filling_ = false;
 }
 
 void ArtefactDesigner::takeNumbers() {

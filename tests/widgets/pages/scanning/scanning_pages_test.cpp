@@ -250,8 +250,8 @@ TEST_F(ScanningPages, ModelShowsTheSixErrorsUnderEitherScanModel) {
   // One panel an artefact, all on the same axes.
   const auto panels = page->series()->panels();
   ASSERT_EQ(panels.size(), 2U);
-  const auto height = [](const Plot* plot) { return plot->pixelOf(0, 0).y() - plot->pixelOf(0, 1).y(); };
-  for (const Plot* panel : panels) {
+  const auto height = [](Plot* plot) { return plot->pixelOf(0, 0).y() - plot->pixelOf(0, 1).y(); };
+  for (Plot* panel : panels) {
     EXPECT_EQ(panel->series().size(), 1U);
     EXPECT_NEAR(height(panel) / panel->height(), height(panels[0]) / panels[0]->height(), 0.05);
   }
