@@ -19,6 +19,7 @@
 #include "core/base/text.h"
 #include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
+#include "widgets/common/quantity_box.h"
 #include "widgets/common/words.h"
 #include "widgets/common/wrap_layout.h"
 #include "widgets/models/cells.h"
@@ -100,9 +101,7 @@ ReviewPage::ReviewPage(PageContext page_context, QWidget* parent)
   auto* section_column = new QVBoxLayout(section_tab);
   auto* section_line = new WrapLayout;
   direction_ = new Segments({tr("Along X"), tr("Along Y")}, tr("Direction of the section"));
-  place_ = new QDoubleSpinBox;
-  place_->setDecimals(1);
-  place_->setSuffix(tr(" mm"));
+  place_ = new QuantityBox(QStringLiteral("mm"), 1);
   place_->setAccessibleName(tr("Where the section runs"));
   section_line->addWidget(direction_);
   section_line->addWidget(place_);
