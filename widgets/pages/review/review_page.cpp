@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "widgets/pages/review/review_page.h"
 
+#include <Eigen/Geometry>
 #include <QCheckBox>
 #include <QDoubleSpinBox>
 #include <QGridLayout>
@@ -181,9 +182,8 @@ void ReviewPage::refresh() {
   const auto own = sources_.source(session().campaignId());
   filling_ = true;
   if (own != nullptr && other) {
-    const LinearAxis* y = own->campaign->machine.findAxis("Y");
     place_->setRange(-1e5, 1e5);
-    place_->setValue(y == nullptr ? 0.0 : 0.5 * (y->travel_mm[0] + y->travel_mm[1]));
+    chooseSection(*own);
     const bool scans = !own->scans.empty();
     const bool simulated = !own->campaign->simulation.empty();
     panes_[0]->choose(PaneContent::Measured);
@@ -293,6 +293,19 @@ void ReviewPage::select(const QString& point) {
   if (const int at = rows_->rowOf(point); at >= 0) table_->selectRow(at);
   filling_ = false;
   if (scans) showScans();
+}
+
+/// Through the middle of the travel, along X; points that all lie on a line along Y have a section along Y, through
+/// them.
+void ReviewPage::chooseSection(const ReviewSource& source) {
+  Eigen::AlignedBox2d extent;
+  if (source.observations != nullptr)
+    for (const Observation& o : source.observations->rows) extent.extend(o.position_mm.head<2>());
+  const bool along_y = !extent.isEmpty() && extent.sizes().x() < 1e-6 && extent.sizes().y() > 1e-6;
+  direction_->setCurrent(along_y ? 1 : 0);
+  const LinearAxis* across = source.campaign->machine.findAxis(along_y ? "X" : "Y");
+  const double middle = across == nullptr ? 0.0 : 0.5 * (across->travel_mm[0] + across->travel_mm[1]);
+  place_->setValue(along_y ? extent.min().x() : middle);
 }
 
 void ReviewPage::showSection() {
