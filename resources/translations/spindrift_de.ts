@@ -12303,10 +12303,6 @@ einsatz</translation>
         <translation>Nicht in der Anpassung verwendet: nur zur Validierung</translation>
     </message>
     <message>
-        <source>Measured %1 µm; remains / µm: %2</source>
-        <translation>Gemessen %1 µm; verbleibt / µm: %2</translation>
-    </message>
-    <message>
         <source>
 … %1 lines in all</source>
         <translation>
@@ -12327,6 +12323,10 @@ einsatz</translation>
     <message>
         <source>Reading the compensation</source>
         <translation>Die Kompensation wird gelesen</translation>
+    </message>
+    <message>
+        <source>Measured %1; remains: %2</source>
+        <translation>Gemessen %1; übrig: %2</translation>
     </message>
 </context>
 <context>
@@ -12943,10 +12943,6 @@ einsatz</translation>
         <translation>Wirkung einer unbemerkten Ausdehnung der zweiten Achse</translation>
     </message>
     <message>
-        <source>Change per µm/m</source>
-        <translation>Änderung je µm/m</translation>
-    </message>
-    <message>
         <source>Unit</source>
         <translation>Einheit</translation>
     </message>
@@ -12985,6 +12981,10 @@ einsatz</translation>
     <message>
         <source>Value / u</source>
         <translation>Wert / u</translation>
+    </message>
+    <message>
+        <source>Change per 10⁻⁶</source>
+        <translation>Änderung je 10⁻⁶</translation>
     </message>
 </context>
 <context>
@@ -17700,10 +17700,6 @@ einsatz</translation>
         <translation>Sprache, ab dem nächsten Start</translation>
     </message>
     <message>
-        <source>Numbers</source>
-        <translation>Zahlen</translation>
-    </message>
-    <message>
         <source>Decimals of measured lengths in mm</source>
         <translation>Nachkommastellen gemessener Längen in mm</translation>
     </message>
@@ -17748,16 +17744,8 @@ einsatz</translation>
         <translation>Ziel für Verschiebungen</translation>
     </message>
     <message>
-        <source> µm</source>
-        <translation> µm</translation>
-    </message>
-    <message>
         <source>Goal of rotations</source>
         <translation>Ziel für Drehungen</translation>
-    </message>
-    <message>
-        <source> µrad</source>
-        <translation> µrad</translation>
     </message>
     <message>
         <source>none</source>
@@ -17810,6 +17798,26 @@ einsatz</translation>
     <message>
         <source>Nothing can be written to &quot;%1&quot;; allowed: a folder of yours, from the root on. New sessions go on to %2.</source>
         <translation>In „%1“ kann nicht geschrieben werden; zulässig: ein eigener Ordner, mit vollständigem Pfad. Neue Sitzungen kommen weiterhin nach %2.</translation>
+    </message>
+    <message>
+        <source>Units and numbers</source>
+        <translation>Einheiten und Zahlen</translation>
+    </message>
+    <message>
+        <source>Lengths and errors</source>
+        <translation>Längen und Abweichungen</translation>
+    </message>
+    <message>
+        <source>Angles</source>
+        <translation>Winkel</translation>
+    </message>
+    <message>
+        <source>Temperatures</source>
+        <translation>Temperaturen</translation>
+    </message>
+    <message>
+        <source>On screen. Files, exports, reports and the command line have µm, mm, µrad and °C; what is typed into the files of machine, artefacts and effects has the unit of the file.</source>
+        <translation>Am Bildschirm. Dateien, Ausgaben, Berichte und die Kommandozeile haben µm, mm, µrad und °C; was in die Dateien von Maschine, Prüfkörpern und Effekten eingetragen wird, hat die Einheit der Datei.</translation>
     </message>
 </context>
 <context>
@@ -18634,10 +18642,6 @@ einsatz</translation>
         <translation>Richtung des Schnitts</translation>
     </message>
     <message>
-        <source> mm</source>
-        <translation> mm</translation>
-    </message>
-    <message>
         <source>Where the section runs</source>
         <translation>Lage des Schnitts</translation>
     </message>
@@ -19093,10 +19097,6 @@ einsatz</translation>
         <translation>r </translation>
     </message>
     <message>
-        <source> mm</source>
-        <translation> mm</translation>
-    </message>
-    <message>
         <source>Radius of the brush</source>
         <translation>Radius des Pinsels</translation>
     </message>
@@ -19286,10 +19286,6 @@ einsatz</translation>
         <translation>Befund</translation>
     </message>
     <message>
-        <source>In µm</source>
-        <translation>In µm</translation>
-    </message>
-    <message>
         <source>Before</source>
         <translation>Vorher</translation>
     </message>
@@ -19378,10 +19374,6 @@ einsatz</translation>
         <translation>%1 Läufe der Simulation für die Suche, %2 für die Anpassung (%3 s).</translation>
     </message>
     <message>
-        <source>In µrad</source>
-        <translation>In µrad</translation>
-    </message>
-    <message>
         <source>rms, fitted</source>
         <translation>rms, angepasst</translation>
     </message>
@@ -19428,6 +19420,10 @@ einsatz</translation>
     <message>
         <source>Initial and updated simulation over time</source>
         <translation>Ursprüngliche und aktualisierte Simulation über der Zeit</translation>
+    </message>
+    <message>
+        <source>Residual / %1</source>
+        <translation>Residuum / %1</translation>
     </message>
 </context>
 <context>
@@ -20872,20 +20868,12 @@ einsatz</translation>
         <translation>Ziel für Verschiebungen</translation>
     </message>
     <message>
-        <source> µm</source>
-        <translation> µm</translation>
-    </message>
-    <message>
         <source>and</source>
         <translation>und</translation>
     </message>
     <message>
         <source>Goal of rotations</source>
         <translation>Ziel für Drehungen</translation>
-    </message>
-    <message>
-        <source> µrad</source>
-        <translation> µrad</translation>
     </message>
     <message>
         <source>none</source>

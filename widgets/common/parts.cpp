@@ -27,6 +27,7 @@
 #include "widgets/common/whole_rows.h"
 #include "widgets/theme/fonts.h"
 #include "widgets/theme/icons.h"
+#include "widgets/theme/shown_units.h"
 
 namespace spindrift::gui {
 
@@ -85,7 +86,7 @@ WrappedLabel::WrappedLabel(QWidget* parent) : QLabel(parent) {
 }
 
 void WrappedLabel::setText(const QString& text) {
-  QLabel::setText(text);
+  QLabel::setText(onScreen(text));
   keepLines();
 }
 
@@ -143,7 +144,7 @@ void Callout::show(Tone tone, const QString& sentence) {
   tone_ = tone;
   text_->setText(capitalised(sentence));
   icon_->set(QString::fromLatin1(toneIcon(tone)), tone);
-  setAccessibleName(sentence);
+  setAccessibleName(onScreen(sentence));
   setVisible(true);
   update();
 }
@@ -181,8 +182,8 @@ Badge::Badge(QWidget* parent) : QWidget(parent) {
 void Badge::set(const QString& icon_name, Tone tone, const QString& word) {
   icon_ = icon_name;
   tone_ = tone;
-  word_ = word;
-  setAccessibleName(word);
+  word_ = onScreen(word);
+  setAccessibleName(word_);
   updateGeometry();
   update();
 }
@@ -221,7 +222,7 @@ Card::Card(const QString& title, QWidget* parent) : QFrame(parent) {
 }
 
 void Card::setTitle(const QString& title) {
-  title_->setText(title);
+  title_->setText(onScreen(title));
   title_->setVisible(!title.isEmpty());
 }
 
@@ -243,7 +244,7 @@ NumberTile::NumberTile(const QString& name, QWidget* parent) : QFrame(parent) {
 }
 
 void NumberTile::set(const QString& value, const QString& note, Tone tone) {
-  value_->setText(value);
+  value_->setText(onScreen(value));
   note_->setText(note);
   note_->setVisible(!note.isEmpty());
   const QColor wanted = tone == Tone::Neutral ? theme().text : theme().tone(tone);
@@ -278,7 +279,7 @@ EmptyState::EmptyState(const char* icon_name, const QString& title, const QStrin
 
 void EmptyState::setTexts(const QString& title, const QString& how) {
   title_->setText(title);
-  how_->setText(how);
+  how_->setText(onScreen(how));
 }
 
 QPushButton* EmptyState::addButton(const QString& text, bool primary) {
@@ -294,7 +295,7 @@ QPushButton* EmptyState::addButton(const QString& text, bool primary) {
 }
 
 QLabel* makeLabel(const QString& text, const char* role, QWidget* parent) {
-  auto* label = new QLabel(text, parent);
+  auto* label = new QLabel(onScreen(text), parent);
   label->setProperty("role", QString::fromLatin1(role));
   return label;
 }

@@ -16,6 +16,9 @@ namespace {
 constexpr auto look_key = "theme";
 constexpr auto language_key = "preferences/language";
 constexpr auto decimals_key = "preferences/length_decimals";
+constexpr auto inches_key = "preferences/inches";
+constexpr auto arcseconds_key = "preferences/arcseconds";
+constexpr auto fahrenheit_key = "preferences/fahrenheit";
 constexpr auto folder_key = "preferences/sessions_folder";
 constexpr auto goal_um_key = "preferences/goal_um";
 constexpr auto goal_urad_key = "preferences/goal_urad";
@@ -52,6 +55,9 @@ Preferences preferences() {
   bool good = false;
   const int decimals = settings.value(QLatin1String(decimals_key)).toInt(&good);
   if (good && decimals >= 0 && decimals <= most_length_decimals) p.length_decimals = decimals;
+  p.units.inches = settings.value(QLatin1String(inches_key)).toBool();
+  p.units.arcseconds = settings.value(QLatin1String(arcseconds_key)).toBool();
+  p.units.fahrenheit = settings.value(QLatin1String(fahrenheit_key)).toBool();
   p.sessions_folder = settings.value(QLatin1String(folder_key)).toString();
   const auto number = [&](const char* key, double least, double& value) {
     const double kept = settings.value(QLatin1String(key)).toDouble(&good);
@@ -80,6 +86,9 @@ void setPreferences(const Preferences& wanted) {
   keep(look_key, wanted.look != usual.look, lookName(wanted.look));
   keep(language_key, wanted.language != usual.language, wanted.language);
   keep(decimals_key, wanted.length_decimals.has_value(), wanted.length_decimals.value_or(0));
+  keep(inches_key, wanted.units.inches, true);
+  keep(arcseconds_key, wanted.units.arcseconds, true);
+  keep(fahrenheit_key, wanted.units.fahrenheit, true);
   keep(folder_key, wanted.sessions_folder != usual.sessions_folder, wanted.sessions_folder);
   keep(goal_um_key, wanted.goal_um != usual.goal_um, wanted.goal_um);
   keep(goal_urad_key, wanted.goal_urad != usual.goal_urad, wanted.goal_urad);

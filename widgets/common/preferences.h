@@ -8,6 +8,7 @@
 #include <QString>
 #include <optional>
 
+#include "widgets/theme/shown_units.h"
 #include "widgets/theme/theme.h"
 
 namespace spindrift::gui {
@@ -18,6 +19,7 @@ struct Preferences {
   QString language;  ///< as in QLocale::name(): "de"; empty: the language of the system
   /// Digits after the point of measured lengths in mm, 0 ... 6; nothing: as many as each page finds fitting.
   std::optional<int> length_decimals;
+  UnitChoice units;                   ///< on screen; files, exports and reports have their own
   QString sessions_folder;            ///< where new sessions go; empty: "Spindrift" in the user's documents
   double goal_um = 5.0;               ///< of a new campaign: what may remain of displacements, > 0
   double goal_urad = 0.0;             ///< of a new campaign: what may remain of rotations; 0: not judged

@@ -26,6 +26,7 @@
 #include "widgets/common/preferences.h"
 #include "widgets/theme/icons.h"
 #include "widgets/theme/numbers.h"
+#include "widgets/theme/shown_units.h"
 
 namespace spindrift::gui {
 namespace {
@@ -314,6 +315,8 @@ std::vector<int> shownRows(const QTableView& table) {
 
 QString tableText(const QAbstractItemModel& model, const std::vector<int>& rows, const std::vector<int>& columns,
                   bool headers, TableText kind) {
+  std::optional<FileUnits> of_files;
+  if (kind == TableText::Csv) of_files.emplace();
   const QChar separator = kind == TableText::Csv ? QLatin1Char(',') : QLatin1Char('\t');
   QString text;
   const auto addLine = [&](auto&& field) {

@@ -25,6 +25,7 @@ void giveTableCopying(QTableView* table);
 enum class TableText { Tabs, Csv };
 /// Rows and columns in this order. Numbers as a program reads them: exactly where the model knows them (Qt::UserRole),
 /// else as shown with a plain minus. What a spreadsheet would run as a formula is made a text.
+/// A file has the units of files, whatever is shown.
 [[nodiscard]] QString tableText(const QAbstractItemModel& model, const std::vector<int>& rows,
                                 const std::vector<int>& columns, bool headers, TableText kind);
 /// The rows as they are shown now, from the top.

@@ -25,6 +25,7 @@
 #include "widgets/plots/plot.h"
 #include "widgets/theme/light_colours.h"
 #include "widgets/theme/numbers.h"
+#include "widgets/theme/shown_units.h"
 #include "widgets/view3d/view3d.h"
 
 namespace spindrift::gui {
@@ -58,6 +59,7 @@ Exportable exportableOf(const QString& name, Plot* plot) {
 Exportable exportableOf(const QString& name, View3D* view) {
   return {name, {QStringLiteral("png")}, [view](const QString& file) {
             const LightColours light;
+            const FileUnits units;
             savePicture(view->picture(view->size().expandedTo({800, 600}), picture_ratio), file);
           }};
 }

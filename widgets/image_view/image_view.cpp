@@ -11,6 +11,7 @@
 
 #include "widgets/common/parts.h"
 #include "widgets/theme/fonts.h"
+#include "widgets/theme/shown_units.h"
 
 namespace spindrift::gui {
 
@@ -40,7 +41,7 @@ void ImageView::setMarksVisible(bool visible) {
 }
 
 void ImageView::setCaption(const QString& text) {
-  caption_ = text;
+  caption_ = onScreen(text);
   update();
 }
 

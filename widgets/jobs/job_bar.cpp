@@ -8,6 +8,7 @@
 
 #include "widgets/common/parts.h"
 #include "widgets/theme/icons.h"
+#include "widgets/theme/shown_units.h"
 
 namespace spindrift::gui {
 
@@ -95,7 +96,7 @@ void JobBar::setHint(const QString& text) {
 
 void JobBar::showText(const QString& icon, Tone tone, const QString& text) {
   icon_->set(icon, tone);
-  text_->setText(text);
+  text_->setText(onScreen(text));
   log_.add(tone, text);
 }
 
@@ -113,7 +114,7 @@ void JobBar::setConnections(Tone tone, const QString& text, const QString& tip) 
     connections_->setText({});
     return;
   }
-  connections_->setText(QChar(0x2009) + text);
+  connections_->setText(QChar(0x2009) + onScreen(text));
   connections_->setAccessibleName(text);
   connections_->setIcon(icon(toneIcon(tone), theme().tone(tone)));
   connections_->setToolTip(tip);

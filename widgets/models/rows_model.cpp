@@ -8,11 +8,27 @@
 #include "widgets/common/words.h"
 #include "widgets/theme/fonts.h"
 #include "widgets/theme/icons.h"
+#include "widgets/theme/shown_units.h"
 
 namespace spindrift::gui {
 
 RowsModel::RowsModel(QStringList headers, QObject* parent)
-    : QAbstractTableModel(parent), headers_(printedTitles(std::move(headers))) {}
+    : QAbstractTableModel(parent), headers_(printedTitles(std::move(headers))) {
+  connect(&UnitsNotifier::instance(), &UnitsNotifier::changed, this, [this] {
+    if (columnCount() == 0) return;
+    Q_EMIT headerDataChanged(Qt::Horizontal, 0, columnCount() - 1);
+    if (!rows_.empty()) Q_EMIT dataChanged(index(0, 0), index(rowCount() - 1, columnCount() - 1));
+  });
+}
+
+QString RowsModel::shownText(const Row& row, int column) const {
+  const Cell& cell = row.cells[static_cast<std::size_t>(column)];
+  const QString unit = cell.unit.isEmpty() ? fileUnitOfTitle(headers_[column]) : cell.unit;
+  if (cell.unit.isEmpty()) return cellOnScreen(cell.text, unit);
+  // Of a cell that has a unit: its name alone, a title with it, or a number.
+  if (cell.text == unitText(unit.toStdString())) return shownUnit(unit).name;
+  return fileUnitOfTitle(cell.text).isEmpty() ? cellOnScreen(cell.text, unit) : shownTitle(cell.text);
+}
 
 void RowsModel::setHeaders(const QStringList& titles) {
   const QStringList headers = printedTitles(titles);
@@ -59,11 +75,11 @@ QVariant RowsModel::data(const QModelIndex& index, int role) const {
   const Cell& cell = row.cells[static_cast<std::size_t>(index.column())];
   switch (role) {
     case Qt::DisplayRole:
-      return cell.text;
+      return shownText(row, index.column());
     case Qt::AccessibleTextRole:
-      return headers_[index.column()] + QStringLiteral(": ") + cell.text;
+      return shownTitle(headers_[index.column()]) + QStringLiteral(": ") + shownText(row, index.column());
     case Qt::ToolTipRole:
-      return cell.tip.isEmpty() ? QVariant() : QVariant(cell.tip);
+      return cell.tip.isEmpty() ? QVariant() : QVariant(onScreen(cell.tip));
     case Qt::TextAlignmentRole:
       return static_cast<int>(Qt::AlignVCenter | (cell.right ? Qt::AlignRight : Qt::AlignLeft));
     case Qt::ForegroundRole:
@@ -89,7 +105,7 @@ QVariant RowsModel::data(const QModelIndex& index, int role) const {
 
 QVariant RowsModel::headerData(int section, Qt::Orientation orientation, int role) const {
   if (orientation != Qt::Horizontal || section >= headers_.size()) return {};
-  if (role == Qt::DisplayRole) return headers_[section];
+  if (role == Qt::DisplayRole) return shownTitle(headers_[section]);
   if (role == Qt::TextAlignmentRole && !rows_.empty()) {
     const auto& cells = rows_.front().cells;
     const bool right = section < static_cast<int>(cells.size()) && cells[static_cast<std::size_t>(section)].right;

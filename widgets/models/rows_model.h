@@ -25,6 +25,8 @@ struct Cell {
   std::optional<bool> checked;  ///< a box to check in this cell
   QString tip;
   QPixmap picture;  ///< in place of the icon
+  /// As in files, where the title of the column names none: of the number, or named by the text ("µm", "EX / µm").
+  QString unit;
 };
 
 struct Row {
@@ -37,7 +39,8 @@ class RowsModel : public QAbstractTableModel {
   Q_OBJECT
  public:
   explicit RowsModel(QStringList headers, QObject* parent = nullptr);
-  /// Their units are printed as people write them: "EX / um" becomes "EX / µm".
+  /// Their units are printed as people write them: "EX / um" becomes "EX / µm", or "EX / µin" where the user wants
+  /// that. Cells have the units of files in any case; they are converted when they are shown.
   void setHeaders(const QStringList& titles);
   void setRows(std::vector<Row> rows);
   [[nodiscard]] const std::vector<Row>& rows() const { return rows_; }
@@ -56,6 +59,8 @@ class RowsModel : public QAbstractTableModel {
   void checkedChanged(const QString& id, int column, bool checked);
 
  private:
+  [[nodiscard]] QString shownText(const Row& row, int column) const;
+
   QStringList headers_;
   std::vector<Row> rows_;
 };

@@ -21,6 +21,7 @@
 #include "widgets/plots/qcustomplot_header.h"
 #include "widgets/theme/fonts.h"
 #include "widgets/theme/light_colours.h"
+#include "widgets/theme/shown_units.h"
 
 namespace spindrift::gui {
 namespace {
@@ -49,14 +50,31 @@ QString fitted(const QString& title, const QFontMetrics& metrics, int length) {
          metrics.elidedText(title.mid(best + 1), Qt::ElideRight, length);
 }
 
-/// Numbers on an axis with a true minus sign.
+/// Numbers on an axis, round in the units on screen, with a true minus sign.
 class Ticker : public QCPAxisTicker {
+ public:
+  /// Of the quantity on the axis.
+  void setUnit(const ShownUnit& unit) {
+    unit_ = unit;
+    setTickOrigin(unit_.stored(0.0));
+  }
+
  protected:
+  double getTickStep(const QCPRange& range) override {
+    step_ = QCPAxisTicker::getTickStep(QCPRange(unit_.shown(range.lower), unit_.shown(range.upper)));
+    return step_ / unit_.factor;
+  }
   QString getTickLabel(double tick, const QLocale& locale, QChar format, int precision) override {
-    QString text = QCPAxisTicker::getTickLabel(std::abs(tick) < 1e-12 ? 0.0 : tick, locale, format, precision);
+    const double shown = unit_.shown(tick);
+    const bool zero = std::abs(shown) < std::max(1e-12, 1e-9 * step_);
+    QString text = QCPAxisTicker::getTickLabel(zero ? 0.0 : shown, locale, format, precision);
     text.replace(QLatin1Char('-'), QChar(0x2212));
     return text;
   }
+
+ private:
+  ShownUnit unit_;
+  double step_ = 0.0;
 };
 
 }  // namespace
@@ -87,6 +105,11 @@ Plot::Plot(QWidget* parent) : QWidget(parent), plot_(new QCustomPlot(this)) {
     rebuild();
     replotSoon();
   });
+  connect(&UnitsNotifier::instance(), &UnitsNotifier::changed, this, [this] {
+    nameForReaders();
+    rebuild();
+    replotSoon();
+  });
   restyle();
 }
 
@@ -95,9 +118,12 @@ Plot::~Plot() = default;
 void Plot::setAxes(const QString& x_title, const QString& y_title) {
   x_title_ = printedTitle(x_title);
   y_title_ = printedTitle(y_title);
-  plot_->xAxis->setLabel(x_title_);
-  plot_->yAxis->setLabel(y_title_);
   nameForReaders();
+  replotSoon();
+}
+
+QStringList Plot::axisTitles() const {
+  return {shownTitle(x_title_), shownTitle(y_title_)};
 }
 
 /// What a screen reader says, unless the page has given a name of its own.
@@ -107,7 +133,8 @@ void Plot::nameForReaders() {
   for (const Series& s : series_) {
     if (s.legend && !s.name.isEmpty()) names << s.name;
   }
-  own_name_ = series_.empty() || y_title_.isEmpty() ? empty_title_ : tr("%1 over %2").arg(y_title_, x_title_);
+  own_name_ = series_.empty() || y_title_.isEmpty() ? empty_title_
+                                                    : tr("%1 over %2").arg(shownTitle(y_title_), shownTitle(x_title_));
   setAccessibleName(own_name_);
   setAccessibleDescription(names.join(QStringLiteral(", ")));
 }
@@ -115,13 +142,18 @@ void Plot::nameForReaders() {
 /// Titles and numbers of the axes for the room that they have.
 void Plot::fitAxes() {
   // From the same beginning, whatever the size was before.
-  for (QCPAxis* axis : {plot_->xAxis, plot_->yAxis}) axis->ticker()->setTickCount(most_ticks);
-  plot_->xAxis->setLabel(x_title_);
-  plot_->yAxis->setLabel(y_title_);
+  const QStringList titles = axisTitles();
+  for (QCPAxis* axis : {plot_->xAxis, plot_->yAxis}) {
+    const bool lying = axis == plot_->xAxis;
+    const auto ticker = axis->ticker().staticCast<Ticker>();
+    ticker->setTickCount(most_ticks);
+    ticker->setUnit(unitOfTitle(lying ? x_title_ : y_title_));
+    axis->setLabel(titles[lying ? 0 : 1]);
+  }
   layOut();
   const QRect axes = plot_->axisRect()->rect();
-  plot_->yAxis->setLabel(fitted(y_title_, QFontMetrics(plot_->yAxis->labelFont()), axes.height()));
-  plot_->xAxis->setLabel(fitted(x_title_, QFontMetrics(plot_->xAxis->labelFont()), axes.width()));
+  plot_->yAxis->setLabel(fitted(titles[1], QFontMetrics(plot_->yAxis->labelFont()), axes.height()));
+  plot_->xAxis->setLabel(fitted(titles[0], QFontMetrics(plot_->xAxis->labelFont()), axes.width()));
   plot_->yAxis->ticker()->setTickCount(std::clamp(axes.height() / tick_line, 2, most_ticks));
   plot_->xAxis->ticker()->setTickCount(std::clamp(axes.width() / tick_advance, 2, most_ticks));
 }
@@ -301,7 +333,7 @@ void Plot::rebuild() {
     }
     auto* graph = new MarkedGraph(plot_->xAxis, plot_->yAxis);
     graph->setData(x, y);
-    graph->setName(s.name);
+    graph->setName(onScreen(s.name));
     graph->setAdaptiveSampling(true);
     switch (s.style) {
       case SeriesStyle::Points:
@@ -544,12 +576,18 @@ void Plot::exportTo(const QString& file) {
   const int width = std::max(this->width(), 640);
   const int height = std::max(this->height(), 400);
   bool written = false;
-  const LightColours light;
-  drawIfStale();
   if (lower.endsWith(QLatin1String(".csv"))) {
     writeFileAtomically(file.toStdString(), csv().toStdString());
     return;
   }
+  const LightColours light;
+  const bool other_units = shownUnits() != UnitChoice{};
+  const FileUnits units;
+  if (other_units) {
+    rebuild();
+    stale_ = true;
+  }
+  drawIfStale();
   if (lower.endsWith(QLatin1String(".svg"))) {
     QSvgGenerator generator;
     generator.setFileName(file);
@@ -566,6 +604,12 @@ void Plot::exportTo(const QString& file) {
     written = plot_->savePdf(file, width, height);
   } else {
     written = plot_->savePng(file, width, height, picture_ratio);
+  }
+  if (other_units) {
+    QTimer::singleShot(0, this, [this] {
+      rebuild();
+      replotSoon();
+    });
   }
   if (!written) throw InputError({file.toStdString(), ""}, "the picture could not be written.");
 }

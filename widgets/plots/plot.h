@@ -53,10 +53,11 @@ class Plot : public QWidget {
   explicit Plot(QWidget* parent = nullptr);
   ~Plot() override;
 
-  /// Units of the titles are printed as people write them: "EX / um" becomes "EX / µm".
+  /// Units of the titles are printed as people write them: "EX / um" becomes "EX / µm". Titles and values have the
+  /// units of files; axes and what stands under the cursor those that the user wants.
   void setAxes(const QString& x_title, const QString& y_title);
   /// Of x and y, as they are drawn.
-  [[nodiscard]] QStringList axisTitles() const { return {x_title_, y_title_}; }
+  [[nodiscard]] QStringList axisTitles() const;
   /// Replaces all series, spans and marks, and shows everything.
   void setContent(std::vector<Series> series, std::vector<Span> spans = {});
   /// A vertical line with a name at x.

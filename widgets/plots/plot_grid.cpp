@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "widgets/common/parts.h"
+#include "widgets/theme/shown_units.h"
 
 namespace spindrift::gui {
 namespace {
@@ -89,7 +90,7 @@ void PlotGrid::setContent(std::vector<Series> series) {
       panel.plot->setContent({});
       continue;
     }
-    panel.title->setText(contents[i].front().name);
+    panel.title->setText(onScreen(contents[i].front().name));
     panel.plot->setAccessibleName(contents[i].front().name);
     panel.plot->setRange(std::pair(low - room, high + room));
     panel.plot->setContent(std::move(contents[i]));

@@ -10,6 +10,7 @@
 #include "widgets/plots/plot.h"
 #include "widgets/plots/qcustomplot_header.h"
 #include "widgets/theme/numbers.h"
+#include "widgets/theme/shown_units.h"
 
 namespace spindrift::gui {
 
@@ -42,26 +43,26 @@ std::optional<std::pair<std::size_t, std::size_t>> Plot::valueAt(const QPointF& 
 
 QString Plot::textAt(const QPointF& place) const {
   const auto quantity = [](const QString& title) { return title.section(QStringLiteral(" / "), 0, 0); };
-  const auto unit = [](const QString& title) { return title.section(QStringLiteral(" / "), 1); };
-  const auto number = [](double v, const QString& of) {
-    const QString text = decimalText(v, 'g', 4);
-    return of.isEmpty() ? text : text + QLatin1Char(' ') + of;
+  const auto number = [](double v, const QString& title) {
+    const ShownUnit unit = unitOfTitle(title);
+    const QString text = decimalText(unit.shown(v), 'g', 4);
+    return unit.name.isEmpty() ? text : text + QLatin1Char(' ') + unit.name;
   };
   const auto found = valueAt(place);
   if (!found) {
-    return quantity(x_title_) + QStringLiteral(" = ") + number(plot_->xAxis->pixelToCoord(place.x()), unit(x_title_)) +
+    return quantity(x_title_) + QStringLiteral(" = ") + number(plot_->xAxis->pixelToCoord(place.x()), x_title_) +
            QStringLiteral(",  ") + quantity(y_title_) + QStringLiteral(" = ") +
-           number(plot_->yAxis->pixelToCoord(place.y()), unit(y_title_));
+           number(plot_->yAxis->pixelToCoord(place.y()), y_title_);
   }
   const Series& series = series_[found->first];
   const std::size_t i = found->second;
   const double sigma = i < series.sigma.size() ? series.sigma[i] : 0.0;
-  const QString value =
-      sigma > 0.0
-          ? shownNumbers(QString::fromStdString(withUncertainty(series.y[i], sigma, unit(y_title_).toStdString())))
-          : number(series.y[i], unit(y_title_));
-  return (series.name.isEmpty() ? quantity(y_title_) : series.name) + QStringLiteral(", ") + quantity(x_title_) +
-         QLatin1Char(' ') + number(series.x[i], unit(x_title_)) + QStringLiteral(": ") + value;
+  const ShownUnit y_unit = unitOfTitle(y_title_);
+  const QString value = sigma > 0.0 ? shownNumbers(QString::fromStdString(withUncertainty(
+                                          y_unit.shown(series.y[i]), y_unit.factor * sigma, y_unit.name.toStdString())))
+                                    : number(series.y[i], y_title_);
+  return (series.name.isEmpty() ? quantity(y_title_) : onScreen(series.name)) + QStringLiteral(", ") +
+         quantity(x_title_) + QLatin1Char(' ') + number(series.x[i], x_title_) + QStringLiteral(": ") + value;
 }
 
 void Plot::pickValue(QEvent* event) {

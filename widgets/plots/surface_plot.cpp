@@ -8,6 +8,7 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "widgets/theme/light_colours.h"
+#include "widgets/theme/shown_units.h"
 
 namespace spindrift::gui {
 
@@ -25,6 +26,7 @@ void SurfacePlot::setData(ViewSurface data, const ColourScale& scale) {
 void SurfacePlot::exportTo(const QString& file) {
   if (!file.toLower().endsWith(QLatin1String(".csv"))) {
     const LightColours light;
+    const FileUnits units;
     if (!picture(size().expandedTo({800, 600}), picture_ratio).save(file))
       throw InputError({file.toStdString(), ""}, "the picture could not be written.");
     return;

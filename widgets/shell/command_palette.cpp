@@ -12,6 +12,7 @@
 
 #include "widgets/common/parts.h"
 #include "widgets/models/rows_model.h"
+#include "widgets/panels/common/effect_titles.h"
 
 namespace spindrift::gui {
 namespace {
@@ -73,7 +74,7 @@ CommandPalette::CommandPalette(std::vector<Command> commands, QWidget* parent)
   setObjectName(QStringLiteral("commandPalette"));
   setWindowTitle(tr("Find a command"));
   setAttribute(Qt::WA_DeleteOnClose);
-  resize(840, 480);
+  resize(parent == nullptr ? 960 : std::clamp(parent->width() - 160, 640, 1120), 480);
   auto* column = new QVBoxLayout(this);
   column->setSpacing(8);
   field_ = new QLineEdit;
@@ -85,6 +86,7 @@ CommandPalette::CommandPalette(std::vector<Command> commands, QWidget* parent)
   rows_ = new RowsModel({tr("Command"), tr("Where"), tr("Keys")}, this);
   table_ = makeTable(rows_, tr("Commands"), tr("Nothing the window can do fits these letters."));
   table_->horizontalHeader()->setSectionsClickable(false);  // the order is that of the letters
+  stretchColumn(table_, 1);                                 // a reason may be long; the keys stay in sight
   table_->setFocusPolicy(Qt::NoFocus);                      // the letters go on being typed
   column->addWidget(table_, 1);
   reason_ = new Callout;
@@ -114,6 +116,7 @@ void CommandPalette::fill() {
     title.icon = command.why_not.isEmpty() ? "chevron-right" : "blocked";
     row.cells = {title, {command.where}, {command.keys}};
     if (!command.why_not.isEmpty()) row.cells[1].text += QStringLiteral(" · ") + command.why_not;
+    row.cells[1].tip = row.cells[1].text;
     rows.push_back(std::move(row));
   }
   rows_->setRows(std::move(rows));

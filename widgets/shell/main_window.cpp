@@ -53,6 +53,7 @@
 #include "widgets/shell/step_list.h"
 #include "widgets/shell/welcome_page.h"
 #include "widgets/theme/icons.h"
+#include "widgets/theme/shown_units.h"
 #include "widgets/theme/system_look.h"
 #include "widgets/view3d/prepare.h"
 
@@ -696,10 +697,14 @@ void MainWindow::applyLook(ThemeKind kind) {
 
 void MainWindow::followPreferences() {
   PreferencesNotifier::instance().readAgain();
+  setShownUnits(PreferencesNotifier::instance().now().units);
   connect(&PreferencesNotifier::instance(), &PreferencesNotifier::changed, this,
           [this](const Preferences& before, const Preferences& now) {
             if (now.look != before.look) applyLook(wantedTheme());
-            if (now.length_decimals != before.length_decimals) refreshPage();
+            setShownUnits(now.units);
+            if (now.units != before.units)
+              for (QWidget* shown : findChildren<QWidget*>()) shown->update();
+            if (now.length_decimals != before.length_decimals || now.units != before.units) refreshPage();
           });
   connect(&SystemLook::instance(), &SystemLook::changed, this, [this] { applyLook(wantedTheme()); });
 }

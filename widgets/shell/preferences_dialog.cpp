@@ -18,6 +18,7 @@
 
 #include "widgets/common/languages.h"
 #include "widgets/common/parts.h"
+#include "widgets/common/quantity_box.h"
 #include "widgets/models/session_model.h"
 #include "widgets/theme/numbers.h"
 
@@ -72,11 +73,25 @@ PreferencesDialog::PreferencesDialog(QWidget* parent) : QDialog(parent) {
   for (const auto& [name, code] : languageChoices()) language_->addItem(name, code);
   look->addRow(tr("Language, from the next start"), language_);
 
-  QFormLayout* numbers = section(outer, tr("Numbers"));
+  QFormLayout* numbers = section(outer, tr("Units and numbers"));
+  const auto units = [&](const char* object, const QString& name, const QString& of_files, const QString& other) {
+    auto* box = named(new QComboBox, object, name);
+    box->addItem(of_files, false);
+    box->addItem(other, true);
+    numbers->addRow(name, box);
+    return box;
+  };
+  lengths_ = units("units_lengths", tr("Lengths and errors"), QStringLiteral("mm, µm"), QStringLiteral("in, µin"));
+  angles_ = units("units_angles", tr("Angles"), QStringLiteral("µrad"), QStringLiteral("arcsec"));
+  temperatures_ = units("units_temperatures", tr("Temperatures"), QStringLiteral("°C, K"), QStringLiteral("°F"));
   decimals_ = named(new QComboBox, "length_decimals", tr("Decimals of measured lengths in mm"));
   decimals_->addItem(tr("As each page finds fitting"), -1);
   for (int n = 0; n <= most_length_decimals; ++n) decimals_->addItem(tr("%1 mm").arg(decimalText(0.0, 'f', n)), n);
   numbers->addRow(tr("Measured lengths"), decimals_);
+  numbers->addRow(
+      note(tr("On screen. Files, exports, reports and the command line have µm, mm, µrad and °C; what is typed into "
+              "the files of "
+              "machine, artefacts and effects has the unit of the file.")));
 
   QFormLayout* folders = section(outer, tr("Folders"));
   auto* line = new QHBoxLayout;
@@ -92,14 +107,10 @@ PreferencesDialog::PreferencesDialog(QWidget* parent) : QDialog(parent) {
   outer->addWidget(problem_);
 
   QFormLayout* goals = section(outer, tr("Goals of a new campaign"));
-  goal_um_ = named(new QDoubleSpinBox, "goal_um", tr("Goal of displacements"));
+  goal_um_ = named(new QuantityBox(QStringLiteral("um"), 1), "goal_um", tr("Goal of displacements"));
   goal_um_->setRange(0.1, 1000.0);
-  goal_um_->setDecimals(1);
-  goal_um_->setSuffix(tr(" µm"));
-  goal_urad_ = named(new QDoubleSpinBox, "goal_urad", tr("Goal of rotations"));
+  goal_urad_ = named(new QuantityBox(QStringLiteral("urad"), 1), "goal_urad", tr("Goal of rotations"));
   goal_urad_->setRange(0.0, 10000.0);
-  goal_urad_->setDecimals(1);
-  goal_urad_->setSuffix(tr(" µrad"));
   goal_urad_->setSpecialValueText(tr("none"));
   goals->addRow(tr("Displacements"), goal_um_);
   goals->addRow(tr("Rotations"), goal_urad_);
@@ -139,7 +150,7 @@ PreferencesDialog::PreferencesDialog(QWidget* parent) : QDialog(parent) {
   labels([&](QWidget& label) { label.setFixedSize(widest, sizes::control_height); });
 
   fill();
-  for (QComboBox* box : {look_, language_, decimals_})
+  for (QComboBox* box : {look_, language_, lengths_, angles_, temperatures_, decimals_})
     connect(box, &QComboBox::currentIndexChanged, this, &PreferencesDialog::take);
   for (QDoubleSpinBox* box : {goal_um_, goal_urad_})
     connect(box, &QDoubleSpinBox::valueChanged, this, &PreferencesDialog::take);
@@ -165,6 +176,9 @@ void PreferencesDialog::fill() {
   const Preferences now = preferences();
   look_->setCurrentIndex(look_->findData(static_cast<int>(now.look)));
   language_->setCurrentIndex(std::max(0, language_->findData(now.language)));
+  lengths_->setCurrentIndex(now.units.inches ? 1 : 0);
+  angles_->setCurrentIndex(now.units.arcseconds ? 1 : 0);
+  temperatures_->setCurrentIndex(now.units.fahrenheit ? 1 : 0);
   decimals_->setCurrentIndex(decimals_->findData(now.length_decimals.value_or(-1)));
   folder_->setText(now.sessions_folder);
   folder_->setPlaceholderText(QDir::toNativeSeparators(usualSessionsFolder()));
@@ -180,6 +194,7 @@ void PreferencesDialog::take() {
   Preferences now = preferences();
   now.look = static_cast<Preferences::Look>(look_->currentData().toInt());
   now.language = language_->currentData().toString();
+  now.units = {lengths_->currentIndex() == 1, angles_->currentIndex() == 1, temperatures_->currentIndex() == 1};
   const int decimals = decimals_->currentData().toInt();
   now.length_decimals = decimals < 0 ? std::nullopt : std::optional(decimals);
   now.goal_um = goal_um_->value();

@@ -34,6 +34,9 @@ class PreferencesDialog : public QDialog {
   bool filling_ = false;
   QComboBox* look_;
   QComboBox* language_;
+  QComboBox* lengths_;
+  QComboBox* angles_;
+  QComboBox* temperatures_;
   QComboBox* decimals_;
   QLineEdit* folder_;
   Callout* problem_;

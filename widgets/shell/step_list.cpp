@@ -8,6 +8,7 @@
 
 #include "widgets/theme/fonts.h"
 #include "widgets/theme/icons.h"
+#include "widgets/theme/shown_units.h"
 
 namespace spindrift::gui {
 
@@ -23,9 +24,9 @@ StepButton::StepButton(StepId step, QWidget* parent) : QAbstractButton(parent), 
 void StepButton::setStatus(const StepStatus& status) {
   status_ = status;
   setAccessibleName(stepTitle(step_) + QStringLiteral(", ") + stateWord(status.state) +
-                    (status.number.isEmpty() ? QString() : QStringLiteral(", ") + status.number));
-  setAccessibleDescription(status.sentence);
-  setToolTip(status.sentence);
+                    (status.number.isEmpty() ? QString() : QStringLiteral(", ") + onScreen(status.number)));
+  setAccessibleDescription(onScreen(status.sentence));
+  setToolTip(onScreen(status.sentence));
   update();
 }
 
@@ -67,8 +68,9 @@ void StepButton::paintEvent(QPaintEvent*) {
   painter.setPen(tone);
   painter.setFont(textFont(sizes::font_secondary));
   painter.drawText(QRectF(box.left() + 65, box.bottom() - 24, box.width() - 68, 18), Qt::AlignVCenter,
-                   status_.number.isEmpty() ? stateWord(status_.state)
-                                            : stateWord(status_.state) + QStringLiteral(" · ") + status_.number);
+                   status_.number.isEmpty()
+                       ? stateWord(status_.state)
+                       : stateWord(status_.state) + QStringLiteral(" · ") + onScreen(status_.number));
 }
 
 StepList::StepList(Workflow& workflow, QWidget* parent) : QFrame(parent), workflow_(workflow) {

@@ -27,6 +27,7 @@
 #include "widgets/panels/common/effect_titles.h"
 #include "widgets/theme/fonts.h"
 #include "widgets/theme/numbers.h"
+#include "widgets/theme/shown_units.h"
 #include "widgets/view3d/view3d.h"
 
 namespace spindrift::gui {
@@ -415,6 +416,7 @@ void WhatIfWindow::refreshTable(const WhatIfAnswer& answer) {
                      {unitText(c.unit)},
                      c.nominal_mm > 0.0 ? numberCell(c.nominal_mm, 1) : Cell{},
                      {}};
+        for (const std::size_t i : {2, 3}) row.cells[i].unit = fromCore(c.unit);
         rows.push_back(std::move(row));
       }
       part_rows_->setRows(std::move(rows));
@@ -431,7 +433,7 @@ void WhatIfWindow::refreshTable(const WhatIfAnswer& answer) {
       QString note = tr("Relative to %1").arg(fromCore(artefact.reference));
       if (artefact.along_um_per_m)
         note += tr("; deviation along the bar %1 µm/m").arg(decimalText(*artefact.along_um_per_m, 'f', 1));
-      artefact_note_->setText(note);
+      artefact_note_->setText(onScreen(note));
       break;
     }
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "widgets/theme/colour_map.h"
 #include "widgets/theme/numbers.h"
+#include "widgets/theme/shown_units.h"
 
 #include <algorithm>
 #include <cmath>
@@ -137,7 +138,15 @@ QRgb ColourScale::rgb(double value) const {
 }
 
 std::vector<double> ColourScale::ticks() const {
-  return roundTicks(low, high, 6);
+  const ShownUnit shown = shownUnit(unit);
+  std::vector<double> values = roundTicks(shown.shown(low), shown.shown(high), 6);
+  for (double& v : values) v = shown.stored(v);
+  return values;
+}
+
+QString ColourScale::text(double value, double step) const {
+  const ShownUnit shown = shownUnit(unit);
+  return tickText(shown.shown(value), shown.factor * step);
 }
 
 std::vector<double> roundTicks(double low, double high, int wanted) {

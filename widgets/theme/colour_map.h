@@ -30,8 +30,10 @@ struct ColourScale {
 
   [[nodiscard]] QRgb rgb(double value) const;
   [[nodiscard]] QColor colour(double value) const { return QColor(rgb(value)); }
-  /// 5 to 7 round values within the limits, ascending.
+  /// 5 to 7 values within the limits, ascending, that are round in the unit on screen.
   [[nodiscard]] std::vector<double> ticks() const;
+  /// A value as it stands beside the colours, in the unit on screen; `step`: between two of them.
+  [[nodiscard]] QString text(double value, double step) const;
   [[nodiscard]] bool operator==(const ColourScale&) const = default;
 };
 

@@ -10,9 +10,9 @@
 #include <array>
 #include <cmath>
 
-#include "core/base/unit_text.h"
 #include "widgets/theme/fonts.h"
 #include "widgets/theme/numbers.h"
+#include "widgets/theme/shown_units.h"
 #include "widgets/theme/theme.h"
 
 namespace spindrift::gui {
@@ -68,10 +68,10 @@ struct BarLayout {
 
   explicit BarLayout(const ColourScale& scale)
       : title(scale.title.isEmpty() ? QString() : scale.title + QStringLiteral(" / ")), ticks(scale.ticks()) {
-    title += QString::fromStdString(printedUnit(scale.unit.toStdString()));
+    title += shownUnit(scale.unit).name;
     const QFontMetricsF metrics(textFont(sizes::font_secondary));
     if (ticks.size() > 1) step = ticks[1] - ticks[0];
-    for (const double v : ticks) text_width = std::max(text_width, metrics.horizontalAdvance(tickText(v, step)));
+    for (const double v : ticks) text_width = std::max(text_width, metrics.horizontalAdvance(scale.text(v, step)));
     panel_width = std::max(bar_width + 10 + text_width, metrics.horizontalAdvance(title)) + 2 * sizes::step + 4;
   }
 };
@@ -129,7 +129,7 @@ QRectF paintColourBar(QPainter& painter, const QRectF& area, const ColourScale& 
   for (const double v : ticks) {
     if (std::lround(v / step) % every != 0) continue;
     const double share = (v - scale.low) / (scale.high - scale.low);
-    const QString text = tickText(v, step);
+    const QString text = scale.text(v, step);
     const double width = metrics.horizontalAdvance(text);
     const QPointF at = lying ? QPointF(bar.left() + share * bar.width(), bar.bottom())
                              : QPointF(bar.right(), bar.bottom() - share * bar.height());
@@ -225,8 +225,8 @@ void paintMotions(QPainter& painter, const Camera& camera, const QSizeF& size, c
     painter.drawLine(*a + d * (6 / length), *b - d * (6 / length));
     arrowHead(painter, *b, d, 10, colour);
     arrowHead(painter, *a, -d, 10, colour);
-    const QString text =
-        QStringLiteral("%1  %2 mm").arg(motion.name).arg(decimalText((motion.to_mm - motion.from_mm).norm(), 'f', 0));
+    const QString text = onScreen(
+        QStringLiteral("%1  %2 mm").arg(motion.name, decimalText((motion.to_mm - motion.from_mm).norm(), 'f', 0)));
     const double text_width = metrics.horizontalAdvance(text);
     QPointF outward(-d.y() / length, d.x() / length);
     const QPointF middle = 0.5 * (*a + *b);
@@ -244,7 +244,9 @@ void paintMotions(QPainter& painter, const Camera& camera, const QSizeF& size, c
 
 double gridSpacing_mm(const MachineBodies& bodies) {
   const Eigen::Vector3d extent = bodies.table_high_mm - bodies.table_low_mm;
-  return roundStep(std::max(extent.maxCoeff(), 1e-6) / 10);
+  // Round where it is read.
+  const ShownUnit unit = shownUnit(QStringLiteral("mm"));
+  return roundStep(unit.factor * std::max(extent.maxCoeff(), 1e-6) / 10) / unit.factor;
 }
 
 std::vector<OverlayText> tableScale(const Camera& camera, const QSizeF& size, const MachineBodies& bodies) {
@@ -255,6 +257,7 @@ std::vector<OverlayText> tableScale(const Camera& camera, const QSizeF& size, co
     texts.push_back({baseline, text, box.adjusted(-2, 0, 2, 0)});  // with its halo
   };
   const double spacing = gridSpacing_mm(bodies);
+  const ShownUnit unit = shownUnit(QStringLiteral("mm"));
   const Eigen::Vector3d& low = bodies.table_low_mm;
   const Eigen::Vector3d& high = bodies.table_high_mm;
   const int up = verticalAxis(bodies);
@@ -290,14 +293,15 @@ std::vector<OverlayText> tableScale(const Camera& camera, const QSizeF& size, co
       const double norm = std::hypot(out.x(), out.y());
       if (norm < 4) continue;
       out /= norm;
-      const QString text = decimalText(std::abs(v) < 1e-9 ? 0.0 : v, 'f', spacing < 1 ? 1 : 0);
+      const QString text =
+          decimalText(std::abs(v) < 1e-9 ? 0.0 : unit.shown(v), 'f', unit.factor * spacing < 0.999 ? 1 : 0);
       const double w = metrics.horizontalAdvance(text);
       const QPointF anchor = *at + out * 9;
       const QPointF baseline(anchor.x() - w / 2 + out.x() * w / 2, anchor.y() + metrics.ascent() / 2 - 1 + out.y() * 4);
       if (std::abs(baseline.x() - last_x) < w + 6 && std::abs(baseline.y() - last_y) < metrics.height()) continue;
       last_x = baseline.x();
       last_y = baseline.y();
-      add(baseline, i == unit_axis && v + spacing > high[i] + 1e-9 ? text + QStringLiteral(" mm") : text);
+      add(baseline, i == unit_axis && v + spacing > high[i] + 1e-9 ? text + QLatin1Char(' ') + unit.name : text);
     }
   }
   return texts;
@@ -378,14 +382,16 @@ void paintSurfaceAxes(QPainter& painter, const Camera& camera, const QSizeF& siz
       return std::pair{at(p), at(inner)};
     };
     const double length = QLineF(place(0).first, place(reach[i]).first).length();
-    const std::vector<double> ticks =
-        roundTicks(box.low[i], box.high[i], std::clamp(static_cast<int>(length / tick_px), 1, 5));
+    const QString& title = i == 0 ? surface.x_title : surface.y_title;
+    const ShownUnit unit = unitOfTitle(title);
+    const std::vector<double> ticks = roundTicks(unit.shown(box.low[i]), unit.shown(box.high[i]),
+                                                 std::clamp(static_cast<int>(length / tick_px), 1, 5));
     for (const double v : ticks) {
-      const auto [outer, inner] = place((v - box.low[i]) / (box.high[i] - box.low[i]) * reach[i]);
+      const auto [outer, inner] = place((unit.stored(v) - box.low[i]) / (box.high[i] - box.low[i]) * reach[i]);
       write(outer, inner, tickText(v, steps(ticks)), 12, t.text_secondary);
     }
     const auto [outer, inner] = place(0.5 * reach[i]);
-    write(outer, inner, i == 0 ? surface.x_title : surface.y_title, 40, t.text);
+    write(outer, inner, shownTitle(title), 40, t.text);
   }
   // Along the vertical edge furthest to the left.
   Eigen::Vector3d left = Eigen::Vector3d::Zero();
@@ -399,10 +405,10 @@ void paintSurfaceAxes(QPainter& painter, const Camera& camera, const QSizeF& siz
   for (const double v : ticks) {
     if (std::lround(v / steps(ticks)) % every != 0) continue;
     const QPointF p = at({left.x(), left.y(), (v - box.low.z()) / (box.high.z() - box.low.z()) * reach.z()});
-    write(p, p + QPointF(10, 0), tickText(v, steps(ticks)), 8, t.text_secondary);
+    write(p, p + QPointF(10, 0), scale.text(v, steps(ticks)), 8, t.text_secondary);
   }
   const QPointF top = at({left.x(), left.y(), reach.z()});
-  write(top, top + QPointF(0, 10), surface.value_title, 14, t.text);
+  write(top, top + QPointF(0, 10), shownTitle(surface.value_title), 14, t.text);
   painter.restore();
 }
 

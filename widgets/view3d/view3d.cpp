@@ -12,6 +12,7 @@
 
 #include "widgets/theme/fonts.h"
 #include "widgets/theme/numbers.h"
+#include "widgets/theme/shown_units.h"
 #include "widgets/view3d/overlay.h"
 #include "widgets/view3d/point_labels.h"
 #include "widgets/view3d/scene.h"
@@ -39,6 +40,11 @@ View3D::View3D(QWidget* parent) : QWidget(parent), tools_(new ViewTools(this)) {
       scene_->setColours();
       if (field_ != nullptr && scale_) scene_->setField(field_.get(), field_style_, *scale_);
     }
+    changed();
+  });
+  connect(&UnitsNotifier::instance(), &UnitsNotifier::changed, this, [this] {
+    if (scene_ != nullptr && field_ != nullptr && scale_)
+      scene_->setField(field_.get(), field_style_, *scale_);  // contours
     changed();
   });
   camera_.look(StandardView::Isometric);
@@ -387,6 +393,7 @@ void View3D::paintOverlay(QPainter& painter, const QSize& size, bool with_tools)
   if (bodies_ && !machine_visible_)
     for (const OverlayText& text : tableScale(camera_, area, *bodies_)) keep_out.push_back(text.box);
   std::vector<ViewPoint> points = points_;
+  for (ViewPoint& p : points) p.value_text = onScreen(p.value_text);
   std::erase_if(points, [this](const ViewPoint& p) { return clip_ && !clip_->keeps(p.position_mm); });
   paintPoints(painter, camera_, area, points, scale_, {selected_, hovered_point_, keep_out});
   paintMeasurement(painter, area);
@@ -412,7 +419,7 @@ QStringList View3D::notes(const QSize& size) const {
     notes << (measured_.empty() ? tr("Distance: click the first place") : tr("Distance: click the second place"));
     return notes;
   }
-  if (!caption_.isEmpty()) notes << caption_.split(QLatin1Char('\n'));
+  if (!caption_.isEmpty()) notes << onScreen(caption_).split(QLatin1Char('\n'));
   if (!arrows_.empty()) {
     notes << tr("Arrows %1 times larger than the deviation").arg(decimalText(exaggeration_, 'f', 0));
   }

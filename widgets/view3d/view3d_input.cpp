@@ -10,8 +10,8 @@
 #include <cmath>
 
 #include "core/base/text.h"
-#include "core/base/unit_text.h"
 #include "widgets/theme/numbers.h"
+#include "widgets/theme/shown_units.h"
 #include "widgets/view3d/scene.h"
 #include "widgets/view3d/view3d.h"
 #include "widgets/view3d/view_tools.h"
@@ -148,42 +148,45 @@ QString View3D::textAt(const QPointF& position) const {
   const QString id = pointAt(position);
   const auto point = std::find_if(points_.begin(), points_.end(), [&](const ViewPoint& p) { return p.id == id; });
   if (!id.isEmpty() && point != points_.end() && !point->value_text.isEmpty())
-    return tr("%1: %2").arg(point->label.isEmpty() ? id : point->label, point->value_text);
-  const std::string unit = scale_ ? printedUnit(scale_->unit.toStdString()) : std::string();
-  const auto valueText = [&](double value, const double* sigma) {
-    return sigma != nullptr && std::isfinite(*sigma)
-               ? shownNumbers(QString::fromStdString(withUncertainty(value, *sigma, unit)))
-               : tr("%1 %2").arg(decimalText(value, 'g', 4)).arg(QString::fromStdString(unit));
+    return tr("%1: %2").arg(point->label.isEmpty() ? id : point->label, onScreen(point->value_text));
+  const auto quantityOnScreen = [](const ShownUnit& unit, double value, double sigma) {
+    return std::isfinite(sigma) ? shownNumbers(QString::fromStdString(
+                                      withUncertainty(unit.shown(value), unit.factor * sigma, unit.name.toStdString())))
+                                : tr("%1 %2").arg(decimalText(unit.shown(value), 'g', 4), unit.name);
   };
+  const ShownUnit unit = scale_ ? shownUnit(scale_->unit) : ShownUnit{};
   if (const auto i = surfaceNodeAt(position)) {
     const ViewSurface& s = *surface_;
     const auto quantity = [](const QString& title, double value) {  // "Position / mm": "Position 550 mm"
-      const QStringList parts = title.split(QStringLiteral(" / "));
-      return tr("%1 %2 %3").arg(parts.front(), decimalText(value, 'g', 4), parts.size() > 1 ? parts[1] : QString());
+      const ShownUnit of = unitOfTitle(title);
+      return tr("%1 %2 %3")
+          .arg(title.section(QStringLiteral(" / "), 0, 0), decimalText(of.shown(value), 'g', 4), of.name);
     };
     return tr("%1, %2: %3")
         .arg(quantity(s.x_title, s.x[*i % s.x.size()]), quantity(s.y_title, s.y[*i / s.x.size()]),
-             valueText(s.value[*i], s.sigma.size() == s.value.size() ? &s.sigma[*i] : nullptr));
+             quantityOnScreen(unit, s.value[*i], s.sigma.size() == s.value.size() ? s.sigma[*i] : std::nan("")));
   }
   if (const auto probe = probeAt(position)) {
     const FieldGrid& grid = field_->grid;
-    const QString text = tr("%1 %2 mm, %3 %4 mm: %5")
-                             .arg(QLatin1Char("xyz"[grid.firstAxis()]))
-                             .arg(decimalText(probe->xy_mm.x(), 'f', 1))
-                             .arg(QLatin1Char("xyz"[grid.secondAxis()]))
-                             .arg(decimalText(probe->xy_mm.y(), 'f', 1))
-                             .arg(shownNumbers(QString::fromStdString(
-                                 withUncertainty(probe->value, probe->sigma, unitOf(field_->component)))));
+    const QString place = tr("%1 %2 mm, %3 %4 mm: %5")
+                              .arg(QLatin1Char("xyz"[grid.firstAxis()]))
+                              .arg(decimalText(probe->xy_mm.x(), 'f', 1))
+                              .arg(QLatin1Char("xyz"[grid.secondAxis()]))
+                              .arg(decimalText(probe->xy_mm.y(), 'f', 1))
+                              .arg(shownNumbers(QString::fromStdString(
+                                  withUncertainty(probe->value, probe->sigma, unitOf(field_->component)))));
+    const QString text = onScreen(place);
     return probe->extrapolated ? text + tr(" (extrapolated)") : text;
   }
   const auto i = cloudPointAt(position);
   if (!i) return {};
   const float* p = cloud_.xyz_mm->data() + 3 * *i;
-  const QString place = tr("x %1 mm, y %2 mm, z %3 mm")
-                            .arg(decimalText(p[0], 'f', 2), decimalText(p[1], 'f', 2), decimalText(p[2], 'f', 3));
+  const QString place =
+      onScreen(tr("x %1 mm, y %2 mm, z %3 mm")
+                   .arg(decimalText(p[0], 'f', 2), decimalText(p[1], 'f', 2), decimalText(p[2], 'f', 3)));
   if (cloud_.scalar == nullptr) return place;
   const double sigma = cloud_.sigma == nullptr ? std::nan("") : static_cast<double>((*cloud_.sigma)[*i]);
-  return tr("%1: %2").arg(place, valueText(static_cast<double>((*cloud_.scalar)[*i]), &sigma));
+  return tr("%1: %2").arg(place, quantityOnScreen(unit, static_cast<double>((*cloud_.scalar)[*i]), sigma));
 }
 
 void View3D::mousePressEvent(QMouseEvent* event) {

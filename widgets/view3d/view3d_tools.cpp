@@ -4,6 +4,7 @@
 #include <QTouchEvent>
 #include <cmath>
 
+#include "widgets/theme/shown_units.h"
 #include "widgets/view3d/overlay.h"
 #include "widgets/view3d/scene.h"
 #include "widgets/view3d/view3d.h"
@@ -71,7 +72,7 @@ void View3D::pickEnd(const QPointF& position) {
   if (!place) return;
   if (measured_.size() == 2) measured_.clear();
   measured_.push_back(*place);
-  if (measured_.size() == 2) Q_EMIT distanceMeasured(distanceText(measured_[0], measured_[1]));
+  if (measured_.size() == 2) Q_EMIT distanceMeasured(onScreen(distanceText(measured_[0], measured_[1])));
   update();
 }
 
@@ -80,7 +81,8 @@ void View3D::paintMeasurement(QPainter& painter, const QSizeF& size) const {
   for (const MeasuredPlace& place : measured_) {
     if (const auto at = camera_.project(place.position_mm, size)) ends.push_back(*at);
   }
-  paintDistance(painter, size, ends, measured_.size() == 2 ? distanceText(measured_[0], measured_[1]) : QString());
+  paintDistance(painter, size, ends,
+                measured_.size() == 2 ? onScreen(distanceText(measured_[0], measured_[1])) : QString());
 }
 
 void View3D::touch(QTouchEvent* event) {

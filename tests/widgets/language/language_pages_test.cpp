@@ -9,6 +9,7 @@
 #include <QAction>
 #include <QComboBox>
 #include <QCoreApplication>
+#include <QDoubleSpinBox>
 #include <QGroupBox>
 #include <QLabel>
 #include <QLineEdit>
@@ -33,6 +34,7 @@
 #include "tests/widgets/support/story_support.h"
 #include "widgets/common/help_text.h"
 #include "widgets/common/languages.h"
+#include "widgets/common/preferences.h"
 #include "widgets/export/exportable.h"
 #include "widgets/jobs/activity_dialog.h"
 #include "widgets/pages/page.h"
@@ -47,6 +49,7 @@
 #include "widgets/shell/preferences_dialog.h"
 #include "widgets/teaching/exercise_dialog.h"
 #include "widgets/teaching/what_if_window.h"
+#include "widgets/theme/shown_units.h"
 
 namespace spindrift::gui {
 namespace {
@@ -98,7 +101,7 @@ QStringList wordsOf(const QString& text) {
       QStringLiteral("Spindrift"), QStringLiteral("rms"),      QStringLiteral("min"),     QStringLiteral("mrad"),
       QStringLiteral("degC"),      QStringLiteral("µrad"),     QStringLiteral("English"), QStringLiteral("Deutsch"),
       QStringLiteral("ARX"),       QStringLiteral("CalculiX"), QStringLiteral("dir"),     QStringLiteral("Strg"),
-      QStringLiteral("Umschalt")};
+      QStringLiteral("arcsec"),    QStringLiteral("rpm"),      QStringLiteral("Umschalt")};
   QString plain = text;
   plain.replace(name, QStringLiteral(" "));
   QStringList words;
@@ -129,8 +132,9 @@ void forEachText(QWidget& root, const std::function<void(const QString&)>& take)
     }
     if (const auto* surface = qobject_cast<SurfacePlot*>(w)) {
       for (const QString& title : {surface->data().x_title, surface->data().y_title, surface->data().value_title})
-        take(title);
+        take(shownTitle(title));
     }
+    if (const auto* box = qobject_cast<QDoubleSpinBox*>(w)) take(box->suffix());
     if (const auto* text = qobject_cast<HelpText*>(w)) {
       for (const QString& line : text->toPlainText().split(QLatin1Char('\n'))) take(line);
     }
@@ -228,6 +232,38 @@ TEST_P(LanguageOfPages, NoTextIsLeftOutOfTheTranslation) {
 
 INSTANTIATE_TEST_SUITE_P(Demos, LanguageOfPages,
                          ::testing::Values("fiducials", "holes", "balls", "scans", "discrepancy", "own_pattern"),
+                         [](const auto& test) { return std::string(test.param); });
+
+class UnitsOfPages : public StoryTest, public ::testing::WithParamInterface<const char*> {
+ protected:
+  void TearDown() override {
+    StoryTest::TearDown();
+    setShownUnits({});
+  }
+};
+
+TEST_P(UnitsOfPages, AreThoseOfThePreferencesAndNoOthers) {
+  Preferences wanted;
+  wanted.units = {true, true, true};
+  setPreferences(wanted);
+  static const QRegularExpression of_files(QStringLiteral("(?<![\\w])(µm|mm|µrad|°C|(?<=\\d )K|(?<=/)K)(?![\\w])"),
+                                           QRegularExpression::UseUnicodePropertiesOption);
+  // Typed into a file: the unit is that of its key.
+  std::set<QString> told;
+  for (const char* field :
+       {"Apart / mm", "Certificate ± / µm", "Certified position along the bar / mm", "Expansion / (µm/(m·K))",
+        "Fixed bearing\n/ mm", "From\n/ mm", "Hole diameter / mm", "Pitch\n/ mm", "Radius\n/ mm", "Reference at / mm",
+        "Resolution\n/ µm", "Temperature / °C", "To\n/ mm", "x / mm", "y / mm", "z / mm", "Ø / mm", "At / mm"})
+    told.insert(QString::fromUtf8(field));
+  walk(QString::fromLatin1(GetParam()), [&](const std::string& what) {
+    forEachText(*window_, [&](const QString& text) {
+      if (of_files.match(text).hasMatch() && told.insert(text).second)
+        ADD_FAILURE() << what << ": \"" << text.toStdString() << "\"";
+    });
+  });
+}
+
+INSTANTIATE_TEST_SUITE_P(Demos, UnitsOfPages, ::testing::Values("fiducials", "holes", "balls", "scans", "discrepancy"),
                          [](const auto& test) { return std::string(test.param); });
 
 class LanguageOfWindows : public LanguagePagesTest {

@@ -34,7 +34,9 @@
 #include "widgets/export/exportable.h"
 #include "widgets/models/cells.h"
 #include "widgets/models/rows_model.h"
+#include "widgets/theme/colour_map.h"
 #include "widgets/theme/numbers.h"
+#include "widgets/theme/shown_units.h"
 #include "widgets/view3d/measurement.h"
 
 namespace spindrift::gui {
@@ -387,6 +389,72 @@ TEST_F(LanguageTest, TitlesHaveUnitsAsPeopleWriteThem) {
   EXPECT_EQ(printedTitle(QStringLiteral("EX_um")), QStringLiteral("EX_um")) << "the name of a column";
   EXPECT_EQ(RowsModel({QStringLiteral("1 / urad")}).headerData(0, Qt::Horizontal, Qt::DisplayRole).toString(),
             QStringLiteral("1 / µrad"));
+}
+
+class UnitsTest : public LanguageTest {
+ protected:
+  void TearDown() override {
+    setShownUnits({});
+    LanguageTest::TearDown();
+  }
+};
+
+TEST_F(UnitsTest, AreConvertedWhereTheyAreReadAndNowhereElse) {
+  EXPECT_EQ(onScreen(QStringLiteral("12.4 ± 0.3 µm")), QStringLiteral("12.4 ± 0.3 µm"));
+  setShownUnits({true, true, true});
+  EXPECT_EQ(onScreen(QStringLiteral("12.4 ± 0.3 µm")), QStringLiteral("488 ± 12 µin"));
+  EXPECT_EQ(onScreen(QStringLiteral("−12.70 µm")), QStringLiteral("−500.0 µin"));
+  EXPECT_EQ(onScreen(QStringLiteral("2.54 mm and 21.0 °C")), QStringLiteral("0.1000 in and 69.8 °F"));
+  EXPECT_EQ(onScreen(QStringLiteral("20.0 ± 0.5 °C")), QStringLiteral("68.0 ± 0.9 °F"))
+      << "an uncertainty is a difference";
+  EXPECT_EQ(onScreen(QStringLiteral("the room within 2.0 K")), QStringLiteral("the room within 3.6 °F"));
+  EXPECT_EQ(onScreen(QStringLiteral("48.5 µrad")), QStringLiteral("10.00 arcsec"));
+  EXPECT_EQ(onScreen(QStringLiteral("0.0 to 25.4 mm")), QStringLiteral("0.000 to 1.000 in"));
+  EXPECT_EQ(onScreen(QStringLiteral("x 25.4, y 50.8, z 0.0 mm")), QStringLiteral("x 1.000, y 2.000, z 0.000 in"));
+  EXPECT_EQ(onScreen(QStringLiteral("(254, 508, 0) mm")), QStringLiteral("(10.00, 20.00, 0.00) in"));
+  EXPECT_EQ(onScreen(QStringLiteral("in cycle 3, 12.4 µm")), QStringLiteral("in cycle 3, 12.4 µm"))
+      << "3 may be of the unit: rather the unit of the file than a wrong number";
+  EXPECT_EQ(onScreen(QStringLiteral("11.5 µm/m, 1.8 µm/K")), QStringLiteral("11.5 µin/in, 39 µin/°F"));
+  for (const char* other : {"488 µin", "EX_um", "M3 and K7", "0.6 rad/mm", "1/mm", "1.4571 steel"})
+    EXPECT_EQ(onScreen(QString::fromUtf8(other)), QString::fromUtf8(other));
+  applyLanguage(QStringLiteral("de"));
+  EXPECT_EQ(onScreen(QStringLiteral("12,4 ± 0,3 µm")), QStringLiteral("488 ± 12 µin"));
+  EXPECT_EQ(onScreen(QStringLiteral("2,54 mm")), QStringLiteral("0,1000 in"));
+}
+
+TEST_F(UnitsTest, ATableShowsThoseThatAreWantedAndIsExportedInThoseOfFiles) {
+  RowsModel model({QStringLiteral("Point"), QStringLiteral("EX / µm"), QStringLiteral("Bar\n/ °C"),
+                   QStringLiteral("Growth / (µm/m)")});
+  Row row{QStringLiteral("P1"),
+          {nameCell(QStringLiteral("P1")), quantityCell(12.4, 0.3), numberCell(20.0, 1), numberCell(11.5, 1)}};
+  row.cells.push_back(Cell{});
+  model.setRows(
+      {row, Row{QStringLiteral("P2"),
+                {nameCell(QStringLiteral("P2")), Cell{QStringLiteral("5 in cycle 2")}, dashCell(), dashCell()}}});
+  const QString file = tableCsv(model);
+  setShownUnits({true, false, true});
+  const auto title = [&](int column) { return model.headerData(column, Qt::Horizontal, Qt::DisplayRole).toString(); };
+  EXPECT_EQ(title(1), QStringLiteral("EX / µin"));
+  EXPECT_EQ(title(2), QStringLiteral("Bar\n/ °F"));
+  EXPECT_EQ(title(3), QStringLiteral("Growth / (µin/in)"));
+  EXPECT_EQ(model.index(0, 1).data().toString(), QStringLiteral("488 ± 12"));
+  EXPECT_EQ(model.index(0, 2).data().toString(), QStringLiteral("68.0"));
+  EXPECT_EQ(model.index(0, 3).data().toString(), QStringLiteral("11.5"));
+  EXPECT_EQ(model.index(1, 1).data().toString(), QStringLiteral("5 in cycle 2 µm"));
+  EXPECT_EQ(model.index(1, 2).data().toString(), QStringLiteral("–"));
+  EXPECT_EQ(tableCsv(model), file);
+}
+
+TEST_F(UnitsTest, AColourBarHasRoundNumbersOfTheUnitOnScreen) {
+  const ColourScale scale = ColourScale::symmetric(12.0, QStringLiteral("EX"), QStringLiteral("um"));
+  setShownUnits({true, false, false});
+  const std::vector<double> ticks = scale.ticks();
+  ASSERT_GT(ticks.size(), 3U);
+  for (const double v : ticks) {
+    const double shown = v / 0.0254;
+    EXPECT_NEAR(shown, 100.0 * std::round(shown / 100.0), 1e-6);
+  }
+  EXPECT_EQ(scale.text(ticks.back(), ticks[1] - ticks[0]), QStringLiteral("400"));
 }
 
 TEST_F(LanguageTest, ATableInGermanIsExportedWithPoints) {

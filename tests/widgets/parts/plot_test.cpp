@@ -14,6 +14,7 @@
 #include "tests/support/temp_folder.h"
 #include "widgets/image_view/image_view.h"
 #include "widgets/plots/qcustomplot_header.h"
+#include "widgets/theme/shown_units.h"
 
 namespace spindrift::gui {
 namespace {
@@ -112,6 +113,49 @@ TEST(Plot, TellsTheValueUnderTheCursorWithItsUncertainty) {
   };
   EXPECT_EQ(moveTo(plot.pixelOf(1.0, 12.43) + QPointF(3, -3)), "F1, Time 1 h: 12.4 ± 0.3 µm");
   EXPECT_EQ(moveTo(plot.pixelOf(1.5, 2.0)).rfind("Time = 1.5 h,  EX = 2 µm", 0), 0U) << "between the values: the place";
+}
+
+TEST(Plot, HasTheUnitsOfThePreferencesAndIsExportedInThoseOfFiles) {
+  const testing::TempFolder folder;
+  Plot plot;
+  plot.setAxes(QStringLiteral("Time / h"), QStringLiteral("EX / um"));
+  Series series;
+  series.name = QStringLiteral("F1 at 254 mm");
+  series.x = {0.0, 1.0, 2.0};
+  series.y = {0.0, 12.70, 25.4};
+  series.sigma = {0.254, 0.254, 0.254};
+  plot.setContent({series});
+  plot.resize(600, 400);
+  plot.show();
+  const auto svg = [&] {
+    const QString file = QString::fromStdString((folder / "plot.svg").string());
+    plot.exportTo(file);
+    QFile read(file);
+    return read.open(QIODevice::ReadOnly) ? read.readAll() : QByteArray();
+  };
+  QCoreApplication::processEvents();
+  const QByteArray in_files = svg();
+  ASSERT_FALSE(in_files.isEmpty());
+  auto* canvas = plot.findChild<QCustomPlot*>();
+  setShownUnits({true, false, false});
+  for (int i = 0; i < 3; ++i) {  // exporting leaves the window as it is
+    QCoreApplication::processEvents();
+    plot.grab();
+    EXPECT_EQ(canvas->yAxis->label(), QStringLiteral("EX / µin"));
+    for (const double v : canvas->yAxis->tickVector()) {
+      const double shown = v / 0.0254;
+      EXPECT_NEAR(shown, 100.0 * std::round(shown / 100.0), 1e-6);
+    }
+    EXPECT_TRUE(canvas->yAxis->tickVectorLabels().contains(QStringLiteral("1000")))
+        << canvas->yAxis->tickVectorLabels().join(QLatin1Char(' ')).toStdString();
+    EXPECT_EQ(svg(), in_files);
+  }
+  QSignalSpy hovered(&plot, &Plot::hovered);
+  const QPointF place = plot.pixelOf(1.0, 12.70);
+  QMouseEvent move(QEvent::MouseMove, place, canvas->mapToGlobal(place), Qt::NoButton, Qt::NoButton, Qt::NoModifier);
+  QCoreApplication::sendEvent(canvas, &move);
+  EXPECT_EQ(hovered.back()[0].toString().toStdString(), "F1 at 10.00 in, Time 1 h: 500 ± 10 µin");
+  setShownUnits({});
 }
 
 TEST(Plot, ManyCurvesInAnyWindowAreDrawn) {

@@ -7,10 +7,12 @@
 #include <QLineEdit>
 #include <QMenu>
 #include <QMenuBar>
+#include <QScrollBar>
 #include <QTableView>
 #include <QTest>
 
 #include "tests/widgets/support/story_support.h"
+#include "widgets/common/languages.h"
 #include "widgets/shell/demo.h"
 #include "widgets/shell/help_panel.h"
 #include "widgets/theme/theme.h"
@@ -95,6 +97,23 @@ TEST_F(CommandPaletteTest, TheBeginningOfAWordComesBeforeLettersOfSeveral) {
   QTest::keyClicks(field_, QStringLiteral("pre"));
   EXPECT_EQ(cell(0, 0), QStringLiteral("Preferences …"));
   EXPECT_TRUE(titles().contains(QStringLiteral("Print the report …")));
+}
+
+TEST_F(CommandPaletteTest, KeysAreInSightInGermanToo) {
+  applyLanguage(QStringLiteral("de"));
+  window_ = std::make_unique<MainWindow>();
+  window_->resize(1280, 800);
+  window_->show();
+  window_->startDemo(QStringLiteral("discrepancy"), true);
+  wait();
+  openPalette();
+  applyLanguage(QStringLiteral("en"));
+  ASSERT_FALSE(HasFatalFailure());
+  wait();
+  palette_->grab();  // lays out
+  EXPECT_EQ(cell(0, 1), QStringLiteral("Sitzung"));
+  EXPECT_EQ(table_->horizontalScrollBar()->maximum(), 0);
+  EXPECT_LT(palette_->width(), window_->width());
 }
 
 TEST_F(CommandPaletteTest, EscapeClosesAndRunsNothing) {

@@ -19,6 +19,7 @@
 #include <QTimer>
 #include <latch>
 
+#include "core/base/atomic_file.h"
 #include "core/machine/machine_description.h"
 #include "core/tasks/task_options.h"
 #include "tests/widgets/support/story_support.h"
@@ -28,6 +29,7 @@
 #include "widgets/panels/discrepancy/effect_editor.h"
 #include "widgets/panels/discrepancy/effects_panel.h"
 #include "widgets/shell/tour.h"
+#include "widgets/theme/numbers.h"
 #include "widgets/theme/system_look.h"
 #include "widgets/theme/theme.h"
 
@@ -148,6 +150,62 @@ TEST_F(PreferencesTest, DecimalsOfMeasuredLengthsChangeTheTablesAtOnce) {
   QTest::mouseClick(field<QPushButton>("reset"), Qt::LeftButton);
   QCoreApplication::processEvents();
   EXPECT_EQ(decimals(), std::set<qsizetype>{4});
+}
+
+TEST_F(PreferencesTest, UnitsChangeTablesAndGoalsAtOnceAndNoFile) {
+  window_->startDemo(QStringLiteral("holes"), true);
+  wait();
+  window_->workflow().goTo(StepId::Calibrate);
+  window_->currentPage()->runAll();
+  wait();
+  const auto values = [&](const QString& title) {
+    QStringList texts;
+    for (const QTableView* table : window_->currentPage()->findChildren<QTableView*>()) {
+      const QAbstractItemModel& model = *table->model();
+      for (int c = 0; c < model.columnCount(); ++c) {
+        if (model.headerData(c, Qt::Horizontal).toString() != title) continue;
+        for (int r = 0; r < model.rowCount(); ++r) texts << model.index(r, c).data().toString();
+      }
+    }
+    return texts;
+  };
+  const auto exported = [&] {
+    QString all;
+    for (const Exportable& item : window_->currentPage()->exportables()) {
+      if (!item.formats.contains(QStringLiteral("csv"))) continue;
+      const QString file = QString::fromStdString((folder_ / "table.csv").string());
+      item.write(file);
+      all += QString::fromStdString(readFile(file.toStdString()));
+    }
+    return all;
+  };
+  const QStringList mm = values(QStringLiteral("x / mm"));
+  ASSERT_FALSE(mm.isEmpty());
+  const QString files = exported();
+  openDialog();
+  ASSERT_FALSE(HasFatalFailure());
+  field<QComboBox>("units_lengths")->setCurrentIndex(1);
+  field<QComboBox>("units_angles")->setCurrentIndex(1);
+  QCoreApplication::processEvents();
+  EXPECT_TRUE(values(QStringLiteral("x / mm")).isEmpty());
+  const QStringList inches = values(QStringLiteral("x / in"));
+  ASSERT_EQ(inches.size(), mm.size());
+  for (qsizetype i = 0; i < mm.size(); ++i)
+    EXPECT_NEAR(typedNumber(inches[i]).value(), typedNumber(mm[i]).value() / 25.4, 1e-6) << mm[i].toStdString();
+  EXPECT_EQ(exported(), files);
+  // A goal is typed in the unit that is read, and kept in that of files.
+  auto* goal = field<QDoubleSpinBox>("goal_um");
+  EXPECT_EQ(goal->text(), QStringLiteral("197 µin"));
+  goal->setFocus();
+  goal->selectAll();
+  QTest::keyClicks(goal, QStringLiteral("200"));
+  QTest::keyClick(goal, Qt::Key_Tab);
+  EXPECT_NEAR(preferences().goal_um, 5.08, 1e-6);
+  EXPECT_EQ(goal->text(), QStringLiteral("200 µin"));
+  QTest::mouseClick(field<QPushButton>("reset"), Qt::LeftButton);
+  QCoreApplication::processEvents();
+  EXPECT_EQ(values(QStringLiteral("x / mm")), mm);
+  EXPECT_EQ(goal->text(), QStringLiteral("5.0 µm"));
 }
 
 TEST_F(PreferencesTest, NewSessionsGoIntoTheFolder) {

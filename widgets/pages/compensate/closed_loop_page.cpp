@@ -18,6 +18,7 @@
 #include "widgets/panels/common/effect_titles.h"
 #include "widgets/plots/plot.h"
 #include "widgets/theme/numbers.h"
+#include "widgets/theme/shown_units.h"
 
 namespace spindrift::gui {
 namespace {
@@ -222,13 +223,14 @@ void ClosedLoopPage::refresh() {
   folder_->setEnabled(plan != nullptr && !running);
   confirmation_->setVisible(asked_ && plan != nullptr);
   if (asked_ && plan != nullptr)
-    dry_run_->setText(tr("The machine will be switched on and homed. A measuring cycle moves: %1. Between cycles the "
-                         "spindle turns by the program, %2 h in all. The compensation stays within ±%3 µm and changes "
-                         "by at most %4 µm/s. Keep clear of the machine.")
-                          .arg(coreSentence(run.summary()))
-                          .arg(decimalText(plan->duration_s / 3600.0, 'g', 3))
-                          .arg(plan->limits.limit_um)
-                          .arg(plan->limits.rate_um_s));
+    dry_run_->setText(
+        onScreen(tr("The machine will be switched on and homed. A measuring cycle moves: %1. Between cycles the "
+                    "spindle turns by the program, %2 h in all. The compensation stays within ±%3 µm and changes "
+                    "by at most %4 µm/s. Keep clear of the machine.")
+                     .arg(coreSentence(run.summary()))
+                     .arg(decimalText(plan->duration_s / 3600.0, 'g', 3))
+                     .arg(plan->limits.limit_um)
+                     .arg(plan->limits.rate_um_s)));
   if (plan != nullptr && !run.good() && notice_.isEmpty())
     notice_ = tr("The measuring cycle may not run: line %1: %2.")
                   .arg(run.issues.front().line)
@@ -378,12 +380,13 @@ void ClosedLoopPage::showCycles() {
   const auto count = std::count_if(result.cycles.begin(), result.cycles.end(), [axis](const LoopCycle& cycle) {
     return cycle.stage != LoopStage::None && std::isfinite(cycle.with_um[axis]);
   });
-  errors_->setText(count == 0 ? tr("Error without and with: no cycle has been compensated yet.")
-                              : tr("%1: %2 µm rms without, %3 µm rms with, over %4 since the compensation began.")
-                                    .arg(fromCore(std::string(toString(static_cast<Component>(axis)))))
-                                    .arg(decimalText(result.rmsWithout(LoopStage::None)[axis], 'f', 1))
-                                    .arg(decimalText(result.rmsWith(LoopStage::None)[axis], 'f', 1))
-                                    .arg(tr("%n cycles", nullptr, static_cast<int>(count))));
+  errors_->setText(count == 0
+                       ? tr("Error without and with: no cycle has been compensated yet.")
+                       : onScreen(tr("%1: %2 µm rms without, %3 µm rms with, over %4 since the compensation began.")
+                                      .arg(fromCore(std::string(toString(static_cast<Component>(axis)))))
+                                      .arg(decimalText(result.rmsWithout(LoopStage::None)[axis], 'f', 1))
+                                      .arg(decimalText(result.rmsWith(LoopStage::None)[axis], 'f', 1))
+                                      .arg(tr("%n cycles", nullptr, static_cast<int>(count)))));
 }
 
 void ClosedLoopPage::showEvent(QShowEvent* event) {

@@ -13,6 +13,7 @@
 #include "widgets/pages/compensate/compensate_page.h"
 #include "widgets/panels/common/effect_titles.h"
 #include "widgets/theme/numbers.h"
+#include "widgets/theme/shown_units.h"
 #include "widgets/view3d/view3d.h"
 
 namespace spindrift::gui {
@@ -54,7 +55,7 @@ void CompensatePage::showPlan() {
                                    .arg(sizeText(*plan_->rms_after_unseen_um, um),
                                         sizeText(*plan_->rms_before_unseen_um, um), coreSentence(plan_->unseen))
                              : coreSentence(plan_->unseen);
-  after_->setToolTip(tr("On data not used for fitting: %1.").arg(unseen));
+  after_->setToolTip(onScreen(tr("On data not used for fitting: %1.").arg(unseen)));
   after_->set(sizeText(plan_->rms_after_um, um),
               plan_->rms_after_unseen_um
                   ? tr("%1 where nothing was fitted").arg(sizeText(*plan_->rms_after_unseen_um, um))
@@ -68,7 +69,7 @@ void CompensatePage::showPlan() {
   }
   text += QLatin1Char(' ') + tr("Relative to %1.").arg(coreSentence(plan_->reference));
   if (!plan_->limitation.empty()) text += QLatin1Char(' ') + coreSentence(plan_->limitation);
-  model_->setText(text);
+  model_->setText(onScreen(text));
   showPoints();
   std::vector<Row> rows;
   for (const CompensationFile& f : plan_->files) {
@@ -103,10 +104,11 @@ void CompensatePage::showPoints() {
       const auto axis = static_cast<std::size_t>(i);
       if (p.remains_um[axis])
         parts << QString::fromLatin1(axis_titles[axis]) + QLatin1Char(' ') +
-                     valueText(*p.remains_um[axis], remainingSigma_um(p, i));
+                     valueText(*p.remains_um[axis], remainingSigma_um(p, i)) + QStringLiteral(" µm");
     }
-    row.cells.back().tip = tr("Measured %1 µm; remains / µm: %2")
-                               .arg(sizeText(measuredLength_um(p), {}), parts.join(QStringLiteral(", ")));
+    row.cells.back().tip =
+        tr("Measured %1; remains: %2")
+            .arg(sizeText(measuredLength_um(p), QStringLiteral("um")), parts.join(QStringLiteral(", ")));
     rows.push_back(std::move(row));
   }
   points_->setHeaders({tr("Point"), tr("X / µm"), tr("Y / µm"), tr("Z / µm"), tr("Remains")});

@@ -30,6 +30,7 @@
 #include "widgets/panels/discrepancy/what_panel.h"
 #include "widgets/panels/discrepancy/where_panel.h"
 #include "widgets/theme/numbers.h"
+#include "widgets/theme/shown_units.h"
 
 namespace spindrift::gui {
 namespace {
@@ -572,8 +573,8 @@ void DiscrepancyPage::showVerdict() {
   verdict_icon_->set(QString::fromLatin1(toneIcon(s.tone)), s.tone);
   // The longest sentences are set smaller, so that they stay within two lines.
   setRole(verdict_, s.text.size() > longest_large_sentence ? "pageTitle" : "bigNumber");
-  verdict_->setText(s.text);
-  verdict_note_->setText(s.note.trimmed());
+  verdict_->setText(onScreen(s.text));
+  verdict_note_->setText(onScreen(s.note.trimmed()));
   verdict_note_->setVisible(!s.note.isEmpty());
 }
 

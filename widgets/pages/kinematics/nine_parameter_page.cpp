@@ -27,6 +27,7 @@
 #include "widgets/models/rows_model.h"
 #include "widgets/panels/common/effect_titles.h"
 #include "widgets/theme/numbers.h"
+#include "widgets/theme/shown_units.h"
 #include "widgets/view3d/view3d.h"
 
 namespace spindrift::gui {
@@ -279,7 +280,7 @@ void NineParameterPage::showFit() {
   for (const std::string& w : f.warnings) warnings += QLatin1Char(' ') + coreSentence(w);
   higher_->setEnabled(order.richer());
   const QString reason = sentenceStart(coreSentence(order.reason));
-  higher_->setToolTip(reason);
+  higher_->setToolTip(onScreen(reason));
   if (f.status == FitStatus::Converged) {
     if (order.richer() || !warnings.isEmpty()) warnings += QLatin1Char(' ') + reason;
     if (!warnings.isEmpty()) {
@@ -346,6 +347,7 @@ void NineParameterPage::showFit() {
                  in_sigma,
                  {r.used ? (r.weight < 0.99 ? tr("weight %1").arg(decimalText(r.weight, 'f', 2)) : tr("fit"))
                          : tr("validation")}};
+    for (const std::size_t i : {1, 2, 3}) row.cells[i].unit = QStringLiteral("um");
     rows.push_back(std::move(row));
   }
   residuals_->setRows(std::move(rows));

@@ -39,6 +39,7 @@
 #include "widgets/panels/plant/plant_parts.h"
 #include "widgets/plots/plot.h"
 #include "widgets/theme/numbers.h"
+#include "widgets/theme/shown_units.h"
 
 namespace spindrift::gui {
 namespace {
@@ -460,7 +461,7 @@ void PlantPage::showTrends() {
           }
         }
         if (sentences.isEmpty()) sentences << tr("No change that is more than chance.");
-        said_->setText(sentences.mid(0, 6).join(QLatin1Char('\n')));
+        said_->setText(onScreen(sentences.mid(0, 6).join(QLatin1Char('\n'))));
       });
   job.failed = [this](const QString& sentence) { fail(sentence); };
   jobs_.run(std::move(job));

@@ -12,12 +12,14 @@
 #include <array>
 
 #include "widgets/common/parts.h"
+#include "widgets/common/quantity_box.h"
 #include "widgets/common/wrap_layout.h"
 #include "widgets/models/cells.h"
 #include "widgets/models/rows_model.h"
 #include "widgets/pages/probing/cycle_model_page.h"
 #include "widgets/plots/plot.h"
 #include "widgets/theme/numbers.h"
+#include "widgets/theme/shown_units.h"
 #include "widgets/view3d/view3d.h"
 
 namespace spindrift::gui {
@@ -76,13 +78,11 @@ QWidget* CycleModelPage::makeBarPart() {
   second_axis_ = new QCheckBox(tr("Second axis expands too"));
   second_axis_->setToolTip(tr("One parameter more; needs a bar whose growth is known"));
   second_axis_->setObjectName(QStringLiteral("secondAxis"));
-  growth_ = new QDoubleSpinBox;
-  trust_ = new QDoubleSpinBox;
+  growth_ = new QuantityBox(QStringLiteral("um/m"), 2);
+  trust_ = new QuantityBox(QStringLiteral("um/m"), 2);
   const auto prepare = [](QDoubleSpinBox* box, double low, double high, double value, const QString& name) {
     box->setRange(low, high);
-    box->setDecimals(2);
     box->setValue(value);
-    box->setSuffix(QStringLiteral(" µm/m"));
     box->setAccessibleName(name);
     box->setMinimumHeight(sizes::control_height);
   };
@@ -97,7 +97,7 @@ QWidget* CycleModelPage::makeBarPart() {
   auto* unnoticed = makeLabel(tr("Effect of an undetected expansion of the second axis"), "sectionTitle");
   unnoticed->setWordWrap(true);
   card->body()->addWidget(unnoticed);
-  bias_ = new RowsModel({tr("Parameter"), tr("Change per µm/m"), tr("Unit")}, this);
+  bias_ = new RowsModel({tr("Parameter"), tr("Change per 10⁻⁶"), tr("Unit")}, this);
   card->body()->addWidget(makeTable(bias_, tr("Bias by the second axis"), tr("The bias appears after the fit.")), 3);
   connect(second_axis_, &QCheckBox::toggled, this, [this](bool on) {
     options_.change(tr("extend by the second axis"), {{"second_axis", on}});
@@ -147,7 +147,7 @@ void CycleModelPage::showVolume() {
     view_->setMachine(campaign->machine);
     view_->setMachineVisible(false);
   }
-  level_text_->setText(QStringLiteral("%1 mm").arg(level_->value()));
+  level_text_->setText(onScreen(QStringLiteral("%1 mm").arg(level_->value())));
   const Eigen::Vector3d offset = campaign->machine.styli.front().offset_mm;
   const BallCycleModel model(result, k);
   const Component component = shown_components[static_cast<std::size_t>(component_->current())];
@@ -206,6 +206,7 @@ void CycleModelPage::showBar() {
     row.id = fromCore(bias.names[p]);
     row.cells = {nameCell(parameterTitle(bias.names[p])), numberCell(bias.bias_per_um_per_m[p], 3),
                  Cell{parameterUnit(bias.names[p])}};
+    for (const std::size_t i : {1, 2}) row.cells[i].unit = parameterUnit(bias.names[p]);
     rows.push_back(std::move(row));
   }
   bias_->setRows(std::move(rows));

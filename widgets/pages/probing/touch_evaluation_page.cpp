@@ -408,6 +408,7 @@ void TouchEvaluationPage::showRepeatability() {
     row.id = fromCore(r.name);
     row.cells = {nameCell(parameterTitle(r.name)), quantityCell(r.repeatability, r.standard_uncertainty),
                  numberCell(r.expected, 3), Cell{parameterUnit(r.name)}};
+    for (const std::size_t i : {1, 2, 3}) row.cells[i].unit = parameterUnit(r.name);
     rows.push_back(std::move(row));
   }
   repeatability_->setRows(std::move(rows));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "widgets/pages/review/review_page.h"
 
+#include <Eigen/Geometry>
 #include <QCheckBox>
 #include <QDoubleSpinBox>
 #include <QGridLayout>
@@ -19,6 +20,7 @@
 #include "core/base/text.h"
 #include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
+#include "widgets/common/quantity_box.h"
 #include "widgets/common/words.h"
 #include "widgets/common/wrap_layout.h"
 #include "widgets/models/cells.h"
@@ -100,9 +102,7 @@ ReviewPage::ReviewPage(PageContext page_context, QWidget* parent)
   auto* section_column = new QVBoxLayout(section_tab);
   auto* section_line = new WrapLayout;
   direction_ = new Segments({tr("Along X"), tr("Along Y")}, tr("Direction of the section"));
-  place_ = new QDoubleSpinBox;
-  place_->setDecimals(1);
-  place_->setSuffix(tr(" mm"));
+  place_ = new QuantityBox(QStringLiteral("mm"), 1);
   place_->setAccessibleName(tr("Where the section runs"));
   section_line->addWidget(direction_);
   section_line->addWidget(place_);
@@ -182,9 +182,8 @@ void ReviewPage::refresh() {
   const auto own = sources_.source(session().campaignId());
   filling_ = true;
   if (own != nullptr && other) {
-    const LinearAxis* y = own->campaign->machine.findAxis("Y");
     place_->setRange(-1e5, 1e5);
-    place_->setValue(y == nullptr ? 0.0 : 0.5 * (y->travel_mm[0] + y->travel_mm[1]));
+    chooseSection(*own);
     const bool scans = !own->scans.empty();
     const bool simulated = !own->campaign->simulation.empty();
     panes_[0]->choose(PaneContent::Measured);
@@ -294,6 +293,19 @@ void ReviewPage::select(const QString& point) {
   if (const int at = rows_->rowOf(point); at >= 0) table_->selectRow(at);
   filling_ = false;
   if (scans) showScans();
+}
+
+/// Through the middle of the travel, along X; points that all lie on a line along Y have a section along Y, through
+/// them.
+void ReviewPage::chooseSection(const ReviewSource& source) {
+  Eigen::AlignedBox2d extent;
+  if (source.observations != nullptr)
+    for (const Observation& o : source.observations->rows) extent.extend(o.position_mm.head<2>());
+  const bool along_y = !extent.isEmpty() && extent.sizes().x() < 1e-6 && extent.sizes().y() > 1e-6;
+  direction_->setCurrent(along_y ? 1 : 0);
+  const LinearAxis* across = source.campaign->machine.findAxis(along_y ? "X" : "Y");
+  const double middle = across == nullptr ? 0.0 : 0.5 * (across->travel_mm[0] + across->travel_mm[1]);
+  place_->setValue(along_y ? extent.min().x() : middle);
 }
 
 void ReviewPage::showSection() {

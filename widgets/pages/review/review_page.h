@@ -51,6 +51,7 @@ class ReviewPage : public Page {
   void showAll();
   void showScans();
   void showTable();
+  void chooseSection(const ReviewSource& source);
   void showSection();
   void probe(View3D* view, const QPointF& pixel);
   void select(const QString& point);

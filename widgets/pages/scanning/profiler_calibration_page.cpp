@@ -183,10 +183,13 @@ void ProfilerCalibrationPage::showScans(const ScanEvaluation& evaluation) {
       row.id = fromCore(s.capture.cloud) + (first == 0 ? QString() : QStringLiteral("/rotation"));
       const QString scan = QStringLiteral("%1 · %2").arg(fromCore(s.capture.artefact), fromCore(s.capture.cycle));
       row.cells = {first == 0 ? nameCell(tr("%1 / µm").arg(scan)) : Cell{s.reference ? tr("reference") : tr("µrad")}};
+      const QString unit = first == 0 ? QStringLiteral("um") : QStringLiteral("urad");
+      row.cells[0].unit = unit;
       row.cells[0].tip = tr("%1 % of the reference seen").arg(decimalText(100.0 * s.registration.overlap, 'f', 0));
       if (const auto& form = s.registration.free_form; form && first == 0) {
         const QString seen = row.cells[0].tip;
         row.cells[0] = toneCell(row.cells[0].text, Tone::Attention);
+        row.cells[0].unit = unit;
         row.cells[0].tip =
             seen + QStringLiteral("; ") +
             tr("the surface has changed its shape by %1 µm rms").arg(decimalText(um_per_mm * form->rms_mm(), 'g', 2));
@@ -201,6 +204,7 @@ void ProfilerCalibrationPage::showScans(const ScanEvaluation& evaluation) {
               s.reference ? tr("All others are compared with this scan") : tr("Not observed under this scan model");
         } else {
           row.cells.push_back(quantityCell(factor * value, factor * sigma));
+          row.cells.back().unit = unit;
         }
       }
       row.cells.push_back(first == 0 ? numberCell(s.registration.rms_mm * um_per_mm, 2) : Cell{});

@@ -27,6 +27,7 @@
 #include "widgets/plots/plot.h"
 #include "widgets/services/scan_results.h"
 #include "widgets/theme/numbers.h"
+#include "widgets/theme/shown_units.h"
 #include "widgets/view3d/view3d.h"
 
 namespace spindrift::gui {
@@ -404,10 +405,11 @@ void ScanCapturePage::showProfile(int index) {
       const QSignalBlocker quiet(slider_);
       slider_->setValue(index);
     }
-    slider_text_->setText(tr("%1 of %2, y %3 mm")
-                              .arg(index + 1)
-                              .arg(picture_.scan->profileCount())
-                              .arg(decimalText(carriageOf(*picture_.scan, static_cast<std::size_t>(index)), 'f', 2)));
+    slider_text_->setText(
+        onScreen(tr("%1 of %2, y %3 mm")
+                     .arg(index + 1)
+                     .arg(picture_.scan->profileCount())
+                     .arg(decimalText(carriageOf(*picture_.scan, static_cast<std::size_t>(index)), 'f', 2))));
   }
   profile_->setContent(profileSeries(picture_, index));
 }

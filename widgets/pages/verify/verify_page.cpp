@@ -19,6 +19,7 @@
 #include "core/workflows/evaluate_campaign.h"
 #include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
+#include "widgets/common/quantity_box.h"
 #include "widgets/common/words.h"
 #include "widgets/common/wrap_layout.h"
 #include "widgets/models/cells.h"
@@ -157,19 +158,17 @@ QWidget* VerifyPage::makeChoices() {
   const auto goal = [&](const QString& text, const QString& name, const QString& unit, double most) {
     auto* inner = group();
     inner->addWidget(new QLabel(text));
-    auto* spin = new QDoubleSpinBox;
+    auto* spin = new QuantityBox(unit, 1);
     spin->setAccessibleName(name);
-    spin->setDecimals(1);
     spin->setRange(0, most);
-    spin->setSuffix(unit);
     spin->setMinimumHeight(sizes::control_height);
     spin->setKeyboardTracking(false);
     inner->addWidget(spin);
     return spin;
   };
-  goal_um_ = goal(tr("Goal"), tr("Goal of displacements"), tr(" µm"), 1000);
+  goal_um_ = goal(tr("Goal"), tr("Goal of displacements"), QStringLiteral("um"), 1000);
   goal_um_->setMinimum(0.1);
-  goal_urad_ = goal(tr("and"), tr("Goal of rotations"), tr(" µrad"), 10000);
+  goal_urad_ = goal(tr("and"), tr("Goal of rotations"), QStringLiteral("urad"), 10000);
   goal_urad_->setSpecialValueText(tr("none"));
   auto* criterion = group();
   criterion->addWidget(new QLabel(tr("for the")));
@@ -279,10 +278,12 @@ void VerifyPage::showResult() {
     const auto cell = [&](double value, double sigma, const QString& tip = {}) {
       Cell out{quantityText(value, sigma, {})};
       out.right = true;
+      out.unit = unit;
       out.tip = tip;
       return out;
     };
     Cell named = nameCell(QStringLiteral("%1 / %2").arg(name, unit));
+    named.unit = unit;
     named.tip = tr("%n values compared", nullptr, static_cast<int>(c.values));
     row.cells = {named,
                  cell(c.before.rms, c.before.rms_sigma),

@@ -10,6 +10,8 @@
 #include "widgets/common/words.h"
 #include "widgets/panels/common/effect_titles.h"
 #include "widgets/theme/fonts.h"
+#include "widgets/theme/numbers.h"
+#include "widgets/theme/shown_units.h"
 #include "widgets/theme/theme.h"
 
 namespace spindrift::gui {
@@ -391,9 +393,11 @@ void EffectPicture::paintScale(QPainter& painter, const QRectF& area) const {
   painter.setPen(t.text_secondary);
   painter.setFont(textFont(sizes::font_secondary));
   const double step = scale_.high;
+  const ShownUnit unit = shownUnit(rotations_ ? QStringLiteral("urad") : QStringLiteral("um"));
   for (const double value : {scale_.low, 0.0, scale_.high}) {
     const double x = bar.left() + (value - scale_.low) / (scale_.high - scale_.low) * bar.width();
-    painter.drawText(QRectF(x - 40, bar.bottom() + 2, 80, 16), Qt::AlignHCenter | Qt::AlignTop, tickText(value, step));
+    painter.drawText(QRectF(x - 40, bar.bottom() + 2, 80, 16), Qt::AlignHCenter | Qt::AlignTop,
+                     unit.converted() ? decimalText(unit.shown(value), 'g', 3) : tickText(value, step));
   }
 }
 
@@ -438,13 +442,13 @@ void EffectPicture::paintLegend(QPainter& painter, const QRectF& area, bool besi
   painter.setPen(theme().text_secondary);
   painter.setFont(textFont(sizes::font_secondary));
   QRectF used;
-  painter.drawText(text, Qt::AlignLeft | Qt::AlignTop | Qt::TextWordWrap, legendWords(rotations_, unit_, largest_),
-                   &used);
+  painter.drawText(text, Qt::AlignLeft | Qt::AlignTop | Qt::TextWordWrap,
+                   onScreen(legendWords(rotations_, unit_, largest_)), &used);
   const QPointF at =
       beside ? QPointF(area.left() + 12, used.bottom() + 12) : QPointF(area.right() - bar - unit_px, area.top() + 6);
   paintScale(painter, QRectF(at, QSizeF(bar, scale_px - 6)));
   painter.drawText(QRectF(at.x() + bar + 6, at.y() - 4, unit_px, 16), Qt::AlignLeft | Qt::AlignVCenter,
-                   unitText(rotations_ ? "urad" : "um"));
+                   shownUnit(rotations_ ? QStringLiteral("urad") : QStringLiteral("um")).name);
 }
 
 void EffectPicture::paintEvent(QPaintEvent*) {

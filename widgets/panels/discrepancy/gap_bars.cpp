@@ -9,6 +9,7 @@
 #include "widgets/panels/common/effect_titles.h"
 #include "widgets/theme/fonts.h"
 #include "widgets/theme/numbers.h"
+#include "widgets/theme/shown_units.h"
 #include "widgets/theme/theme.h"
 
 namespace spindrift::gui {
@@ -119,7 +120,7 @@ void GapBars::draw(QPainter& painter, const QRect& area) const {
       painter.drawRoundedRect(QRectF(left, y, width, bar_height), 2, 2);
       painter.setPen(t.text);
       painter.drawText(QRectF(left + width + 6, y, area.right() - left - width, bar_height),
-                       Qt::AlignLeft | Qt::AlignVCenter, sizeText(bar.value, QStringLiteral("um")));
+                       Qt::AlignLeft | Qt::AlignVCenter, onScreen(sizeText(bar.value, QStringLiteral("um"))));
       y += bar_step;
     }
     painter.setPen(QPen(t.text, 1.2, Qt::DashLine));
@@ -127,12 +128,12 @@ void GapBars::draw(QPainter& painter, const QRect& area) const {
     if (!group.more.isEmpty()) {
       painter.setPen(t.text_secondary);
       painter.drawText(QRect(area.left(), y - 4, area.width(), more_height), Qt::AlignLeft | Qt::AlignVCenter,
-                       group.more);
+                       onScreen(group.more));
       y += more_height;
     }
     y += group_gap;
   }
-  const QString text = tr("noise floor %1").arg(sizeText(noise_, QStringLiteral("um")));
+  const QString text = onScreen(tr("noise floor %1").arg(sizeText(noise_, QStringLiteral("um"))));
   const double text_width = painter.fontMetrics().horizontalAdvance(text);
   const double x = std::clamp(floor_x - text_width / 2, static_cast<double>(area.left()),
                               std::max<double>(area.left(), area.right() - text_width));

@@ -19,6 +19,7 @@
 #include "widgets/panels/discrepancy/residual_map.h"
 #include "widgets/plots/plot.h"
 #include "widgets/theme/numbers.h"
+#include "widgets/theme/shown_units.h"
 #include "widgets/view3d/view3d.h"
 
 namespace spindrift::gui {
@@ -245,7 +246,7 @@ void GapPanel::show(const std::shared_ptr<const DiscrepancyStory>& story, const 
   if (discrepancy_->added.empty()) {
     model_->setText(discrepancy_->proposed
                         ? tr("Nothing has been added yet. With what is proposed the rms would fall to %1.")
-                              .arg(sizeText(discrepancy_->proposed->rms_after_um, QStringLiteral("um")))
+                              .arg(onScreen(sizeText(discrepancy_->proposed->rms_after_um, QStringLiteral("um"))))
                         : tr("Nothing has been added to the simulation."));
   } else {
     model_->setText(tr("After: simulation plus %1, fitted jointly.").arg(effectTitles(discrepancy_->added, tr("and"))));

@@ -22,6 +22,7 @@
 #include "widgets/panels/common/effect_titles.h"
 #include "widgets/plots/plot.h"
 #include "widgets/theme/numbers.h"
+#include "widgets/theme/shown_units.h"
 
 namespace spindrift::gui {
 namespace {
@@ -190,7 +191,7 @@ void NoisePanel::fillFacts() {
   const int count = static_cast<int>(story_->outliers.size());
   lines << (count == 0 ? tr("No reading lies far from all others.")
                        : tr("%n readings lie far from all others; they have little weight.", nullptr, count));
-  facts_->setText(lines.join(QLatin1Char('\n')));
+  facts_->setText(onScreen(lines.join(QLatin1Char('\n'))));
 }
 
 void NoisePanel::fillShifts() {

@@ -17,6 +17,7 @@
 #include "widgets/panels/common/effect_titles.h"
 #include "widgets/plots/plot.h"
 #include "widgets/theme/numbers.h"
+#include "widgets/theme/shown_units.h"
 
 namespace spindrift::gui {
 namespace {
@@ -141,6 +142,7 @@ void RemainderPanel::fillComponents() {
                   .arg(decimalText(clear_evidence, 'f', 0));
     row.cells = {name, rightCell(sizeText(sizes.residual, {})), rightCell(sizeText(sizes.effects, {})),
                  rightCell(sizeText(sizes.noise, {})), size};
+    for (Cell& cell : row.cells) cell.unit = componentUnit(c);
     row.cells[1].tip = tr("rms of measured − simulated");
     row.cells[2].tip = tr("rms of what the effects found explain");
     rows.push_back(std::move(row));
@@ -154,7 +156,7 @@ void RemainderPanel::fillComponents() {
 
 void RemainderPanel::fillPoints() {
   const QString unit = componentUnit(component_);
-  points_title_->setText(tr("Pattern of %1 over the points / %2").arg(componentName(component_), unit));
+  points_title_->setText(shownTitle(tr("Pattern of %1 over the points / %2").arg(componentName(component_), unit)));
   double last_s = 0.0;
   for (const DiscrepancySeries& s : story_->series) {
     if (!s.time_s.empty()) last_s = std::max(last_s, s.time_s.back());
@@ -173,6 +175,7 @@ void RemainderPanel::fillPoints() {
     row.cells = {name, rightCell(sizeText(size, {})), rightCell(QStringLiteral("–")), rightCell(QStringLiteral("–"))};
     if (const auto most = s.largestRemaining(); most && size > 0.0) {
       row.cells[2] = rightCell(sizeText(s.remaining[*most], {}));
+      for (const std::size_t i : {1, 2}) row.cells[i].unit = unit;
       row.cells[3] = rightCell(tr("%1 %2").arg(decimalText(s.time_s[*most] / time.seconds, 'f', 1)).arg(time.name));
     }
     if (std::isfinite(size) && size > largest_rms) {

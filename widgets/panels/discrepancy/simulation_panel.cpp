@@ -34,6 +34,7 @@
 #include "widgets/panels/discrepancy/simulation_views.h"
 #include "widgets/plots/plot.h"
 #include "widgets/theme/numbers.h"
+#include "widgets/theme/shown_units.h"
 #include "widgets/workflow/simulator_choice.h"
 
 namespace spindrift::gui {
@@ -80,7 +81,8 @@ SimulationPanel::SimulationPanel(PageContext context, QWidget* parent) : QWidget
   scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   scroll->setWidget(found_);
   found_scroll_ = scroll;
-  figures_ = new RowsModel({tr("In µm"), tr("Before"), tr("After"), tr("Fitted term"), tr("Noise")}, this);
+  figures_ = new RowsModel(
+      {tr("Residual / %1").arg(unitText("um")), tr("Before"), tr("After"), tr("Fitted term"), tr("Noise")}, this);
   figure_table_ = makeTable(figures_, tr("Figures before and after"));
   stretchColumn(figure_table_, 0);
   figure_table_->setVerticalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
@@ -394,7 +396,7 @@ void SimulationPanel::showFound() {
     warnings = story_->warnings;
   }
   for (const std::string& w : warnings) html += QStringLiteral("<p>%1</p>").arg(titledSentence(w).toHtmlEscaped());
-  found_->setText(html);
+  found_->setText(onScreen(html));
 }
 
 void SimulationPanel::showFigures() {
@@ -403,6 +405,7 @@ void SimulationPanel::showFigures() {
   figure_table_->setVisible(there);
   std::vector<Row> rows;
   if (there) {
+    const QString unit = unitText(story_->gap.rotations ? "urad" : "um");
     const auto line = [&](const QString& id, const QString& name, double before, double after, double term,
                           double noise) {
       Row row;
@@ -411,14 +414,14 @@ void SimulationPanel::showFigures() {
       for (const double value : {before, after, term, noise}) {
         Cell cell{sizeText(value, {})};
         cell.right = true;
+        cell.unit = unit;
         row.cells.push_back(std::move(cell));
       }
       row.cells[2].bold = true;
       rows.push_back(std::move(row));
     };
     const double none = std::nan("");
-    figures_->setHeaders({story_->gap.rotations ? tr("In µrad") : tr("In µm"), tr("Before"), tr("After"),
-                          tr("Fitted term"), tr("Noise")});
+    figures_->setHeaders({tr("Residual / %1").arg(unit), tr("Before"), tr("After"), tr("Fitted term"), tr("Noise")});
     line(QStringLiteral("fit"), tr("rms, fitted"), done->rms_before_um, done->rms_after_um, done->rms_fitted_term_um,
          done->noise_um);
     line(QStringLiteral("heldout"), tr("rms, held out"), done->heldout_rms_before_um, done->heldout_rms_after_um,

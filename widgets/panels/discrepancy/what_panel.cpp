@@ -24,6 +24,7 @@
 #include "widgets/panels/common/effect_titles.h"
 #include "widgets/plots/plot.h"
 #include "widgets/theme/numbers.h"
+#include "widgets/theme/shown_units.h"
 
 namespace spindrift::gui {
 namespace {
@@ -262,7 +263,7 @@ void WhatPanel::showEffect() {
   }
   drivers += QLatin1Char(' ') + tr("Displacement at the tool: %1 rms. Id: %2.")
                                     .arg(sizeText(e->rms_um, QStringLiteral("um")), QString::fromStdString(e->id));
-  drivers_->setText(drivers);
+  drivers_->setText(onScreen(drivers));
   physics_->setText(
       rival ? tr("The values are those of %1, which fits equally well. Add this effect instead to see its own.")
                   .arg(effectTitle(e->id))

@@ -18,6 +18,7 @@
 #include "widgets/models/rows_model.h"
 #include "widgets/panels/common/effect_titles.h"
 #include "widgets/plots/plot.h"
+#include "widgets/theme/shown_units.h"
 #include "widgets/view3d/view3d.h"
 
 namespace spindrift::gui {
@@ -219,7 +220,7 @@ void WherePanel::fillSegments() {
 void WherePanel::fillPoints() {
   following_ = true;
   const QString unit = componentUnit(component_);
-  points_title_->setText(tr("Points, rms over time / %1").arg(unit));
+  points_title_->setText(shownTitle(tr("Points, rms over time / %1").arg(unit)));
   std::vector<Row> rows;
   for (const DiscrepancySeries& s : story_->series) {
     if (s.component != component_) continue;
@@ -235,6 +236,7 @@ void WherePanel::fillPoints() {
     }
     row.cells = {name, rightCell(sizeText(s.rms_before, {})), rightCell(sizeText(s.rms_after, {})),
                  rightCell(sizeText(s.noise, {})), beyond};
+    for (std::size_t i = 1; i < row.cells.size(); ++i) row.cells[i].unit = unit;
     rows.push_back(std::move(row));
   }
   points_->setRows(std::move(rows));

@@ -19,6 +19,7 @@
 #include "widgets/plots/plot.h"
 #include "widgets/services/touch_results.h"
 #include "widgets/theme/numbers.h"
+#include "widgets/theme/shown_units.h"
 
 namespace spindrift::gui {
 
@@ -77,7 +78,8 @@ void ReferencePanel::setCycles(std::shared_ptr<const TouchEvaluation> evaluation
   parameter_->clear();
   if (cycles != nullptr) {
     for (const std::string& name : cycles->names) {
-      parameter_->addItem(QStringLiteral("%1 / %2").arg(parameterTitle(name), parameterUnit(name)), fromCore(name));
+      parameter_->addItem(shownTitle(QStringLiteral("%1 / %2").arg(parameterTitle(name), parameterUnit(name))),
+                          fromCore(name));
     }
   }
   compare();

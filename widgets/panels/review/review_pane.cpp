@@ -17,6 +17,7 @@
 #include "widgets/models/cells.h"
 #include "widgets/services/review_sources.h"
 #include "widgets/theme/numbers.h"
+#include "widgets/theme/shown_units.h"
 #include "widgets/view3d/view3d.h"
 
 namespace spindrift::gui {
@@ -250,7 +251,7 @@ void ReviewPane::showMessage(const QString& title, const QString& how) {
 }
 
 void ReviewPane::setValue(const QString& text) {
-  value_->setText(text);
+  value_->setText(onScreen(text));
 }
 
 QString ReviewPane::value() const {

@@ -10,6 +10,7 @@
 #include "widgets/commands/campaign_undo.h"
 #include "widgets/commands/commands.h"
 #include "widgets/common/parts.h"
+#include "widgets/common/quantity_box.h"
 #include "widgets/common/wrap_layout.h"
 #include "widgets/panels/scanning/cloud_painter.h"
 
@@ -24,12 +25,11 @@ ScanMaskBar::ScanMaskBar(View3D* view, SessionModel& session, CampaignUndo& undo
   tools_ = new Segments({tr("Look"), tr("Brush"), tr("Rectangle"), tr("Lasso")}, tr("Tool on the scan"));
   tools_->setToolTip(tr("Brush, rectangle and lasso select in the top view"));
   line->addWidget(tools_);
-  radius_ = new QDoubleSpinBox;
+  radius_ = new QuantityBox(QStringLiteral("mm"), 2);
   radius_->setRange(0.1, 20.0);
   radius_->setSingleStep(0.1);
   radius_->setValue(1.0);
   radius_->setPrefix(tr("r "));
-  radius_->setSuffix(tr(" mm"));
   radius_->setAccessibleName(tr("Radius of the brush"));
   line->addWidget(radius_);
   effect_ = new Segments({tr("Erase"), tr("Restore")}, tr("What painting does"));

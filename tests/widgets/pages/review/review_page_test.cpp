@@ -201,6 +201,32 @@ TEST_F(Review, AnotherSessionBringsItsOwnMachine) {
       << "the first campaign of every session has the same number; the view must not keep the machine of the last one";
 }
 
+TEST_F(Review, PointsOnALineAlongYHaveASectionAlongIt) {
+  VirtualScanCampaign c;
+  c.optics.profile_points = 640;
+  c.optics.profile_interval_mm = 0.05;
+  c.optics.profile_spacing_mm = 0.3;
+  c.artefacts = {{}, {}};
+  c.artefacts[1].id = "A2";
+  c.artefacts[1].y_mm += 400.0;
+  c.cycles = {{"C0", 0.0, 40.0}, {"C1", 1800.0, 40.0}};
+  c.error = [](double time_s, double y_mm) {
+    return SmallError{{0.0, 0.0, 1e-9 * time_s * y_mm}, Eigen::Vector3d::Zero()};
+  };
+  JobContext job;
+  writeVirtualScanCampaign(c, folder_ / "scans", 5, job);
+  open(folder_ / "scans");
+  go<Page>(StepId::Calibrate)->runAll();
+  ASSERT_TRUE(waitForJobs(*window_, 60));
+  auto* page = go<ReviewPage>(StepId::Review);
+  ASSERT_TRUE(waitForJobs(*window_, 60));
+  EXPECT_EQ(page->section()->axisTitles().front(), QStringLiteral("Y / mm"));
+  ASSERT_FALSE(page->section()->series().empty());
+  const Series& points = page->section()->series().front();
+  EXPECT_EQ(points.x.size(), 2U);
+  EXPECT_NEAR(std::abs(points.x.back() - points.x.front()), 400.0, 1.0);
+}
+
 TEST_F(Review, ScansStandSideBySide) {
   VirtualScanCampaign c;
   c.optics.profile_points = 640;
