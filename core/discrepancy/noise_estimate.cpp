@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <mutex>
 #include <numbers>
@@ -32,14 +31,6 @@ constexpr double largest_drift = 1.2;
 constexpr double course_price = 8.0;
 /// Common shift, in standard deviations of the own noise, while nothing is known of the signal.
 constexpr double careful_shift = 0.7;
-/// What shifts a state belongs to the instrument (re-referencing, refocus), so components of one unit are believed to
-/// be shifted about alike: probability that there are shifts at all, that a component then has them, and the standard
-/// deviation of the natural logarithm of its shift over that of the others.
-constexpr double shifts_at_all = 0.5;
-constexpr double shifted_too = 0.8;
-constexpr double unlike_shifts_sd = 0.4;
-/// Variance of a shift, over that of the mean of a state's own noise, below which it makes no difference.
-constexpr double least_shift = 0.1;
 
 /// One component: its units in order of series and time, and the columns whose sizes are estimated.
 struct ComponentData {
@@ -415,9 +406,8 @@ struct ComponentEstimate {
   bool present = false;
   Parameters p;
   double uncertainty = 1.0;
-  double deviance = 0.0;                                           // -2 ln of the restricted likelihood
-  double most_shift_um = std::numeric_limits<double>::infinity();  // beyond it remains to be explained
-  Eigen::VectorXd own;                                             // standardised own noise
+  double deviance = 0.0;  // -2 ln of the restricted likelihood
+  Eigen::VectorXd own;    // standardised own noise
   ComponentData data;
 };
 
@@ -447,7 +437,6 @@ void estimateAt(const ResidualProblem& problem, ComponentEstimate& e, bool again
   if (careful) white.shift = std::min(white.shift, careful_shift * std::exp(white.log_scale) * e.data.mean_sigma);
   Parameters chosen = white;
   Products chosen_products = products;
-  e.most_shift_um = std::numeric_limits<double>::infinity();
   // Correlated in time: tried from what is common among slow instruments to slow rooms.
   std::vector<double> steps;
   for (std::size_t i = 1; i < problem.epoch_time_s.size(); ++i) {
@@ -497,7 +486,6 @@ void estimateAt(const ResidualProblem& problem, ComponentEstimate& e, bool again
       const double kept = correlated.part * std::exp(-step / correlated.time_s);
       chosen.log_scale = std::min(chosen.log_scale, correlated.log_scale + 0.5 * std::log(std::max(1e-3, 1.0 - kept)));
       chosen.shift = std::min(chosen.shift, correlated.shift);
-      e.most_shift_um = chosen.shift;
     } else if (best_correlated < best - correlation_price) {
       chosen = correlated;
       chosen_products = std::move(correlated_products);
@@ -540,73 +528,6 @@ void estimateWithCourses(const ResidualProblem& problem, ComponentEstimate& e, b
   constexpr int most_rounds = 4;
   for (int round = 0; round < most_rounds && findOwnCourses(problem, e.data, e.p); ++round) {
     estimateAt(problem, e, true, careful);
-  }
-}
-
-/// Deviances of a component over the `sizes` of its shift, the last of them without any.
-std::vector<double> shiftDeviances(const ResidualProblem& problem, const ComponentEstimate& e,
-                                   const std::vector<double>& sizes) {
-  const Products products = productsOf(problem, e.data, e.p.part, e.p.time_s);
-  constexpr double impossible = 1e300;
-  std::vector<double> out;
-  for (std::size_t i = 0; i <= sizes.size(); ++i) {
-    Parameters p = e.p;
-    p.shift = i < sizes.size() ? sizes[i] : 0.0;
-    const bool possible = p.shift <= e.most_shift_um;
-    out.push_back(possible ? optimise(e.data, products, problem.free_constants, false, p, 2) : impossible);
-  }
-  return out;
-}
-
-/// Shifts of the components in `which`, which have one unit, together: the root of the posterior mean of the square of
-/// each, over a common size and how far each is from it.
-void shareShifts(const ResidualProblem& problem, std::array<ComponentEstimate, 6>& estimates,
-                 const std::vector<std::size_t>& which, bool careful) {
-  if (which.empty()) return;
-  double own = 0.0;
-  for (const std::size_t c : which)
-    own += (estimates[c].p.log_scale + std::log(estimates[c].data.mean_sigma)) / static_cast<double>(which.size());
-  constexpr int steps = 13;
-  constexpr double step = 0.45;  // of the natural logarithm
-  std::vector<double> sizes;
-  for (int i = 0; i < steps; ++i) sizes.push_back(std::exp(own + step * i) * 0.06);
-  std::vector<std::vector<double>> deviance;
-  for (const std::size_t c : which) deviance.push_back(shiftDeviances(problem, estimates[c], sizes));
-  // Of each component under each common size: likelihood beside that without shifts, and mean square of the shift.
-  std::vector<double> ln_level(steps, 0.0);
-  Eigen::ArrayXXd square(steps, static_cast<Index>(which.size()));
-  for (int level = 0; level < steps; ++level) {
-    for (std::size_t k = 0; k < which.size(); ++k) {
-      double prior = 0.0;
-      for (int i = 0; i < steps; ++i) prior += std::exp(-0.5 * std::pow(step * (i - level) / unlike_shifts_sd, 2));
-      const double least = *std::min_element(deviance[k].begin(), deviance[k].end());
-      double sum = (1.0 - shifted_too) * std::exp(-0.5 * (deviance[k].back() - least));
-      double squares = 0.0;
-      for (int i = 0; i < steps; ++i) {
-        const double w = shifted_too / prior * std::exp(-0.5 * std::pow(step * (i - level) / unlike_shifts_sd, 2)) *
-                         std::exp(-0.5 * (deviance[k][static_cast<std::size_t>(i)] - least));
-        sum += w;
-        squares += w * sizes[static_cast<std::size_t>(i)] * sizes[static_cast<std::size_t>(i)];
-      }
-      ln_level[static_cast<std::size_t>(level)] += std::log(sum) + 0.5 * (deviance[k].back() - least);
-      square(level, static_cast<Index>(k)) = squares / sum;
-    }
-  }
-  const double most = std::max(0.0, *std::max_element(ln_level.begin(), ln_level.end()));
-  double total = (1.0 - shifts_at_all) * std::exp(-most);
-  Eigen::ArrayXd mean = Eigen::ArrayXd::Zero(square.cols());
-  for (int level = 0; level < steps; ++level) {
-    const double w = shifts_at_all / steps * std::exp(ln_level[static_cast<std::size_t>(level)] - most);
-    total += w;
-    mean += w * square.row(level).transpose();
-  }
-  for (std::size_t k = 0; k < which.size(); ++k) {
-    ComponentEstimate& e = estimates[which[k]];
-    const double own_um = std::exp(e.p.log_scale) * e.data.mean_sigma;
-    const double per_state = static_cast<double>(e.data.shifts.rows()) / static_cast<double>(e.data.shifts.cols());
-    double shift = std::sqrt(mean[static_cast<Index>(k)] / total);
-    if (careful) shift = std::min(shift, careful_shift * own_um);
-    e.p.shift = shift * shift * per_state < least_shift * own_um * own_um ? 0.0 : shift;
   }
 }
 
@@ -676,12 +597,6 @@ NoiseModel estimateNoise(const ResidualProblem& problem, const Eigen::VectorXd& 
       }
       estimateWithCourses(problem, e, true, !fitted);
     });
-  }
-  for (const bool angles : {false, true}) {
-    std::vector<std::size_t> which;
-    for (std::size_t c = angles ? 3 : 0; c < (angles ? 6U : 3U); ++c)
-      if (estimates[c].present && estimates[c].data.shifts.cols() > 0) which.push_back(c);
-    shareShifts(problem, estimates, which, !fitted);
   }
   out.weight = Eigen::VectorXd::Ones(problem.size());
   bool any_weight = false;
