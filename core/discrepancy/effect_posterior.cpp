@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numeric>
 #include <set>
@@ -100,7 +101,38 @@ double formulaErrorGain(const Eigen::MatrixXd& m, Index always, const Eigen::Vec
   return gain + mixed;
 }
 
+/// The components in which two residuals are not the same.
+std::array<bool, 6> differing(const ResidualProblem& problem, const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
+  std::array<bool, 6> out{};
+  for (Index u = 0; u < problem.size(); ++u) {
+    if (std::abs(a[u] - b[u]) > 1e-3 * problem.ownSigma(u))
+      out[static_cast<std::size_t>(problem.component[static_cast<std::size_t>(u)])] = true;
+  }
+  return out;
+}
+
+/// 2 ln of the odds of something smooth in the components in `which`, the others as they are; infinite where too few
+/// readings could tell.
+double smoothIn(NoiseProfiles profiles, const std::array<bool, 6>& which) {
+  bool told_apart = false;
+  for (std::size_t c = 0; c < profiles.size(); ++c) {
+    if (which[c]) {
+      told_apart = told_apart || profiles[c].told_apart;
+    } else {
+      profiles[c].noise_alone = profiles[c].with_unknown;
+    }
+  }
+  if (!told_apart) return std::numeric_limits<double>::infinity();
+  return jointDeviance(profiles, &NoiseProfile::noise_alone) - jointDeviance(profiles, &NoiseProfile::with_unknown);
+}
+
 }  // namespace
+
+double smoothBesideNoise(const ResidualProblem& problem, const JointFit& fit, const Eigen::VectorXd& left) {
+  const Eigen::VectorXd left_by_all = problem.without(fit.contribution);
+  const NoiseProfiles profiles = noiseProfiles(problem, left, {true, true, true, true, true, true});
+  return smoothIn(profiles, differing(problem, left, left_by_all - problem.nuisancePart(left_by_all).values));
+}
 
 bool holdsEffect(const Effect& container, const std::string& simple) {
   return std::find(container.contains.begin(), container.contains.end(), simple) != container.contains.end();
@@ -471,16 +503,24 @@ SlotEvidence PosteriorSearch::slotOf(const State& best, std::size_t t, const Job
   return out;
 }
 
-void PosteriorSearch::weighAgainstUnknown(EffectPosterior& posterior) const {
+void PosteriorSearch::weighAgainstUnknown(EffectPosterior& posterior, Remainder& remainder) const {
   const JointFit& fit = posterior.fit;
-  if (fit.terms.empty()) return;
-  Eigen::VectorXd left = problem_->y;
-  for (const Eigen::VectorXd& part : fit.contribution) left -= part;
+  Eigen::VectorXd left = problem_->without(fit.contribution);
   const ResidualProblem::NuisancePart taken = problem_->nuisancePart(left);
   left -= taken.values;
-  std::array<bool, 6> all{};
-  for (const Component c : problem_->component) all[static_cast<std::size_t>(c)] = true;
-  const std::array<double, 6> with = noiseDeviance(*problem_, left, all);
+  const NoiseProfiles with = noiseProfiles(*problem_, left, {true, true, true, true, true, true});
+  const double with_unknown = jointDeviance(with, &NoiseProfile::with_unknown);
+  const double noise_alone = jointDeviance(with, &NoiseProfile::noise_alone);
+  for (Remainder::OfComponent& r : remainder.components) {
+    std::array<bool, 6> one{};
+    one[static_cast<std::size_t>(r.component)] = true;
+    r.evidence = std::min(r.evidence, smoothIn(with, one));
+  }
+  if (fit.terms.empty()) return;
+  struct Weight {
+    double over_unknown = 0.0;
+    double over_noise = 0.0;
+  };
   const auto over = [&](const std::vector<std::size_t>& taken_out) {
     std::vector<ModelTerm> others;
     double own_parameters = 0.0;
@@ -492,20 +532,17 @@ void PosteriorSearch::weighAgainstUnknown(EffectPosterior& posterior) const {
       }
     }
     const JointFit without = search_->solve(others);
-    Eigen::VectorXd more = problem_->y;
-    for (const Eigen::VectorXd& part : without.contribution) more -= part;
+    Eigen::VectorXd more = problem_->without(without.contribution);
     const ResidualProblem::NuisancePart taken_more = problem_->nuisancePart(more);
     more -= taken_more.values;
-    std::array<bool, 6> changed{};
-    for (Index u = 0; u < problem_->size(); ++u) {
-      if (std::abs(more[u] - left[u]) > 1e-3 * problem_->ownSigma(u))
-        changed[static_cast<std::size_t>(problem_->component[static_cast<std::size_t>(u)])] = true;
-    }
-    const std::array<double, 6> deviance = noiseDeviance(*problem_, more, changed);
-    double gain = taken_more.price - taken.price;
-    for (std::size_t c = 0; c < changed.size(); ++c) gain += changed[c] ? deviance[c] - with[c] : 0.0;
+    const std::array<bool, 6> changed = differing(*problem_, more, left);
+    NoiseProfiles profiles = noiseProfiles(*problem_, more, changed);
+    for (std::size_t c = 0; c < changed.size(); ++c)
+      if (!changed[c]) profiles[c] = with[c];
     const double gains = static_cast<double>(fit.parameter_count - without.parameter_count) - own_parameters;
-    return gain - gains * search_->logN() - (priceOf(fit) - priceOf(without));
+    const double price = gains * search_->logN() + (priceOf(fit) - priceOf(without)) - (taken_more.price - taken.price);
+    return Weight{jointDeviance(profiles, &NoiseProfile::with_unknown) - with_unknown - price,
+                  jointDeviance(profiles, &NoiseProfile::noise_alone) - noise_alone - price};
   };
   // The component in which each effect is largest: those that share it are weighed together as well.
   std::vector<std::size_t> main(fit.terms.size(), 0);
@@ -519,7 +556,9 @@ void PosteriorSearch::weighAgainstUnknown(EffectPosterior& posterior) const {
   }
   for (std::size_t t = 0; t < fit.terms.size(); ++t) {
     SlotEvidence& slot = posterior.slots[t];
-    slot.over_unknown = over({t});
+    const Weight alone = over({t});
+    slot.over_unknown = alone.over_unknown;
+    slot.over_noise = alone.over_noise;
     slot.together_over_unknown = slot.over_unknown;
     std::vector<std::size_t> together;
     for (std::size_t k = 0; k < fit.terms.size(); ++k) {
@@ -527,7 +566,7 @@ void PosteriorSearch::weighAgainstUnknown(EffectPosterior& posterior) const {
     }
     if (together.size() < 2) continue;
     slot.together_over_unknown =
-        together.front() == t ? over(together) : posterior.slots[together.front()].together_over_unknown;
+        together.front() == t ? over(together).over_unknown : posterior.slots[together.front()].together_over_unknown;
     slot.together = together.size();
   }
   std::vector<std::size_t> found;
@@ -535,7 +574,7 @@ void PosteriorSearch::weighAgainstUnknown(EffectPosterior& posterior) const {
     if (!posterior.forced[t] && fit.terms[t].effect->id != off_) found.push_back(t);
   }
   if (found.size() == 1) posterior.over_unknown = posterior.slots[found.front()].over_unknown;
-  if (found.size() > 1) posterior.over_unknown = over(found);
+  if (found.size() > 1) posterior.over_unknown = over(found).over_unknown;
 }
 
 EffectPosterior PosteriorSearch::run(const JobContext& job, const ModelTerm* off) {

@@ -94,6 +94,8 @@ struct SlotEvidence {
   double probability = 0.0;     ///< of this effect among the alternatives
   /// 2 ln of the odds that there is an effect here, not noise and a smooth remainder made as large as needed.
   double over_unknown = 0.0;
+  /// The same against noise alone.
+  double over_noise = 0.0;
   /// The same of all effects together that act mainly on the same component as this one; and how many these are.
   double together_over_unknown = 0.0;
   std::size_t together = 1;
@@ -115,6 +117,25 @@ struct EffectPosterior {
   std::vector<DiscrepancyStep> steps;
 };
 
+/// What the effects leave that is neither noise nor nothing: smooth courses in time, of all points together and
+/// of each for itself.
+struct Remainder {
+  struct OfComponent {
+    Component component = Component::EX;
+    double rms_um = 0.0;    ///< um or urad
+    double evidence = 0.0;  ///< 2 ln of how much more probable it is than no remainder
+    double power = 0.0;     ///< whitened squared norm
+  };
+  std::vector<OfComponent> components;
+  std::vector<double> series_evidence;  ///< the same of a course that one series has beside the others
+  Eigen::VectorXd values;               ///< posterior mean over the units, um or urad
+};
+
+/// 2 ln of the odds that there is something smooth beside the noise in `left` (without nuisances), in the components in
+/// which `fit` leaves something else; infinite where too few readings could tell.
+[[nodiscard]] double smoothBesideNoise(const ResidualProblem& problem, const JointFit& fit,
+                                       const Eigen::VectorXd& left);
+
 class PosteriorSearch {
  public:
   PosteriorSearch(const EffectSearch& search, const ResidualProblem& problem, const CandidateLibrary& library,
@@ -123,8 +144,9 @@ class PosteriorSearch {
   /// `off`: a part of the simulation whose size is taken to be wrong, as the simulation has it; it is in the set from
   /// the start, and pays neither for the choice of its dynamics nor for errors that the simulation may have.
   [[nodiscard]] EffectPosterior run(const JobContext& job, const ModelTerm* off = nullptr);
-  /// Fills over_unknown of every effect and of all together.
-  void weighAgainstUnknown(EffectPosterior& posterior) const;
+  /// Fills what every effect and all together are beside noise and a smooth remainder made as large as needed; what
+  /// noise alone explains in `remainder` is none.
+  void weighAgainstUnknown(EffectPosterior& posterior, Remainder& remainder) const;
   /// As above.
   [[nodiscard]] double evidenceOf(const JointFit& fit) const;
   /// What a fit leaves, and the columns that it has, its model error included.
@@ -159,20 +181,6 @@ class PosteriorSearch {
 
 /// True if `container` holds `simple` as a special case.
 [[nodiscard]] bool holdsEffect(const Effect& container, const std::string& simple);
-
-/// What the effects leave that is neither noise nor nothing: smooth courses in time, of all points together and
-/// of each for itself.
-struct Remainder {
-  struct OfComponent {
-    Component component = Component::EX;
-    double rms_um = 0.0;    ///< um or urad
-    double evidence = 0.0;  ///< 2 ln of how much more probable it is than no remainder
-    double power = 0.0;     ///< whitened squared norm
-  };
-  std::vector<OfComponent> components;
-  std::vector<double> series_evidence;  ///< the same of a course that one series has beside the others
-  Eigen::VectorXd values;               ///< posterior mean over the units, um or urad
-};
 
 [[nodiscard]] Remainder remainderOf(const ResidualProblem& problem, const CandidateLibrary::Given& given);
 

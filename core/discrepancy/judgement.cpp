@@ -72,9 +72,9 @@ Eigen::VectorXd inPatternOf(const ResidualProblem& problem, const Eigen::MatrixX
 }
 
 /// Variance of the own noise over that of its core: what outliers make of it; of very heavy tails not all.
-double varianceOfTails(const ResidualProblem& problem) {
-  const double dof = std::max(4.0, problem.noise.tail_dof);
-  return problem.noise.tail_dof > 0.0 ? dof / (dof - 2.0) : 1.0;
+double varianceOfTails(const NoiseModel& noise) {
+  const double dof = std::max(4.0, noise.tail_dof);
+  return noise.tail_dof > 0.0 ? dof / (dof - 2.0) : 1.0;
 }
 
 /// The terms that are one load seen in several patterns, this one included: each has found its begin and its end for
@@ -131,7 +131,7 @@ double imitationRatio(const ResidualProblem& problem, const EffectSearch& search
   double own_since = 0.0;
   double together_since = 0.0;
   const double largest = own.cwiseAbs().maxCoeff();
-  const double spread = varianceOfTails(problem);
+  const double spread = varianceOfTails(problem.noise);
   for (Index u = 0; u < problem.size(); ++u) {
     const Component c = problem.component[static_cast<std::size_t>(u)];
     if (std::abs(moved[u]) < 1e-6 * largest) continue;
@@ -224,20 +224,28 @@ bool hasPatternOf(const ResidualProblem& problem, const EffectSearch& search, co
 
 /// Components in which states are shifted by clearly more than readings scatter: re-referencing does not do that.
 constexpr double largest_shift = 1.2;
-std::vector<Component> movedTogether(const ResidualProblem& problem) {
+std::vector<Component> movedTogether(const ResidualProblem& problem, const NoiseModel& noise) {
   std::vector<Component> out;
   for (const Component c : all_components) {
     double own = 0.0;
     double count = 0.0;
     for (Index u = 0; u < problem.size(); ++u) {
       if (problem.component[static_cast<std::size_t>(u)] != c) continue;
-      own += std::pow(problem.ownSigma(u), 2);
+      own += std::pow(problem.sigma[u] * noise.of(c).scale, 2);
       count += 1.0;
     }
-    if (count > 0.0 && problem.noise.of(c).common > largest_shift * std::sqrt(varianceOfTails(problem) * own / count))
+    if (count > 0.0 && noise.of(c).common > largest_shift * std::sqrt(varianceOfTails(noise) * own / count))
       out.push_back(c);
   }
   return out;
+}
+
+/// True if noise alone explains what the named effects leave: nothing smooth, and no larger shifts than there are.
+bool noiseExplains(const ResidualProblem& problem, const JointFit& fit, const JointFit& named) {
+  Eigen::VectorXd left = problem.without(named.contribution);
+  left -= problem.nuisancePart(left).values;
+  return smoothBesideNoise(problem, fit, left) < remainder_evidence &&
+         movedTogether(problem, estimateNoise(problem, left, true)).empty();
 }
 
 /// Mean of what is left over the points of each state in one component; and the period of the sine that explains most
@@ -292,7 +300,7 @@ bool sameCause(const Effect& effect, const std::string& id) {
 
 std::string describedRemainder(const ResidualProblem& problem, const JointFit& fit, const Remainder& remainder) {
   std::vector<std::string> parts;
-  const std::vector<Component> together = movedTogether(problem);
+  const std::vector<Component> together = movedTogether(problem, problem.noise);
   for (const Component c : together) {
     const auto period = commonPeriod(problem, fit, c);
     parts.push_back(fmt::format("{} of all points has a common time history{}, {:.2f} {} rms", toString(c),
@@ -343,7 +351,8 @@ Judgement judge(const ResidualProblem& problem, const EffectSearch& search, cons
       const bool beyond_drifts = fit.terms[t].effect->own && slot.over_unknown > remainder_evidence;
       const double known = 1.0 / (1.0 + std::pow(ratios[t] / (beyond_drifts ? 1.0 : priors.imitation), 4));
       const double there =
-          1.0 / (1.0 + std::exp(-0.5 * std::min(slot.delta_evidence, slot.over_unknown + unknown_price)));
+          1.0 /
+          (1.0 + std::exp(-0.5 * std::min({slot.delta_evidence, slot.over_noise, slot.over_unknown + unknown_price})));
       // One unknown cause in place of several effects that share a component: they must be far better than it.
       const double instead =
           slot.together_over_unknown + unknown_price - further_price * (static_cast<double>(slot.together) - 1.0);
@@ -423,7 +432,7 @@ Judgement judge(const ResidualProblem& problem, const EffectSearch& search, cons
       step.reason = fmt::format(
           "what it leaves is too large beside it ({:.2f}), or noise would do ({:.0f}): it may imitate a cause outside "
           "the catalogue",
-          ratios[t], slot.over_unknown);
+          ratios[t], std::min(slot.over_noise, slot.over_unknown));
       unnamed.push_back(effect.id);
     } else if (name.rivals.size() > most_rivals) {
       step.accepted = false;
@@ -513,6 +522,7 @@ Judgement judge(const ResidualProblem& problem, const EffectSearch& search, cons
                                 with, least));
   }
   ambiguous = std::any_of(out.names.begin(), out.names.end(), [](const NamedEffect& n) { return !n.rivals.empty(); });
+  if (!unnamed.empty() && noiseExplains(problem, fit, out.named)) unnamed.clear();
   const std::string left = describedRemainder(problem, fit, remainder);
   if (!unnamed.empty()) {
     out.leftover = fmt::format("what {} would explain, but cannot be named{}", joinedList(unnamed),

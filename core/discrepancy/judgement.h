@@ -4,7 +4,8 @@
 //
 // Probability that a name is right =
 //   share of the effect among all that could stand in its place, and 1 / (1 + n) for the n that the log cannot show
-//   x probability that there is an effect in this place at all
+//   x probability that there is an effect in this place at all, and neither noise alone, made as large as it needs,
+//     nor noise and something smooth that nobody knows
 //   x probability that it does not merely imitate a cause outside the catalogue, from what it leaves in the components
 //     in which it acts: with r = rms of the remainder / rms of the effect, 1 / (1 + (r / imitation)^4).
 #pragma once

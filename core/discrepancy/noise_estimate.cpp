@@ -32,6 +32,17 @@ constexpr double course_price = 8.0;
 /// Common shift, in standard deviations of the own noise, while nothing is known of the signal.
 constexpr double careful_shift = 0.7;
 
+/// What shifts a state belongs to the instrument, so components of one unit are believed to be shifted about alike:
+/// probability that there are shifts at all, that a component then has them, and the standard deviation of the natural
+/// logarithm of its shift over that of the others.
+constexpr double shifts_at_all = 0.5;
+constexpr double shifted_too = 0.9;
+constexpr double unlike_shifts_sd = 0.4;
+/// Sizes that are compared: the smallest over the own noise of a reading, how many, and their distance as logarithms.
+constexpr double smallest_shift = 0.06;
+constexpr int shift_sizes = 13;
+constexpr double shift_step = 0.45;
+
 /// One component: its units in order of series and time, and the columns whose sizes are estimated.
 struct ComponentData {
   std::vector<Index> units;
@@ -531,6 +542,36 @@ void estimateWithCourses(const ResidualProblem& problem, ComponentEstimate& e, b
   }
 }
 
+/// Sizes of shifts that are compared, um or urad: the same for all components of one unit, by the noise that the
+/// problem has.
+std::vector<double> shiftSizes(const ResidualProblem& problem, bool translations) {
+  double sum = 0.0;
+  double count = 0.0;
+  for (Index u = 0; u < problem.size(); ++u) {
+    const bool translation = static_cast<std::size_t>(problem.component[static_cast<std::size_t>(u)]) < 3;
+    if (translation != translations) continue;
+    sum += std::log(problem.ownSigma(u));
+    count += 1.0;
+  }
+  std::vector<double> out;
+  for (int i = 0; i < shift_sizes; ++i)
+    out.push_back(smallest_shift * std::exp(sum / std::max(1.0, count) + shift_step * i));
+  return out;
+}
+
+/// Deviances over the `sizes` of the shift, the last of them without any, the rest made as large as each needs.
+std::vector<double> shiftDeviances(const ResidualProblem& problem, const ComponentEstimate& e,
+                                   const std::vector<double>& sizes) {
+  const Products products = productsOf(problem, e.data, e.p.part, e.p.time_s);
+  std::vector<double> out;
+  for (std::size_t i = 0; i <= sizes.size(); ++i) {
+    Parameters p = e.p;
+    p.shift = i < sizes.size() ? sizes[i] : 0.0;
+    out.push_back(optimise(e.data, products, problem.free_constants, false, p, 2));
+  }
+  return out;
+}
+
 }  // namespace
 
 NoiseModel estimateNoise(const ResidualProblem& problem, const Eigen::VectorXd& residual, bool fitted) {
@@ -618,9 +659,9 @@ NoiseModel estimateNoise(const ResidualProblem& problem, const Eigen::VectorXd& 
   return out;
 }
 
-std::array<double, 6> noiseDeviance(const ResidualProblem& problem, const Eigen::VectorXd& residual,
-                                    const std::array<bool, 6>& which) {
-  std::array<double, 6> out{};
+NoiseProfiles noiseProfiles(const ResidualProblem& problem, const Eigen::VectorXd& residual,
+                            const std::array<bool, 6>& which) {
+  NoiseProfiles out;
   JobContext job;
   parallelFor(out.size(), job, [&](std::size_t c) {
     if (!which[c]) return;
@@ -634,9 +675,58 @@ std::array<double, 6> noiseDeviance(const ResidualProblem& problem, const Eigen:
     e.p.log_scale = std::log(n.scale);
     e.p.part = n.correlated_part;
     e.p.time_s = n.correlation_time_s;
-    estimateWithCourses(problem, e, false, false);
-    out[c] = e.deviance;
+    const std::vector<double> sizes = shiftSizes(problem, c < 3);
+    const auto profile = [&](ComponentEstimate estimate) {
+      estimateWithCourses(problem, estimate, false, false);
+      return estimate.data.shifts.cols() > 0 ? shiftDeviances(problem, estimate, sizes)
+                                             : std::vector<double>{estimate.deviance};
+    };
+    out[c].with_unknown = profile(e);
+    const Index readings = e.data.residual.size();
+    out[c].told_apart = e.data.smooth.cols() > 0 || e.data.hats.cols() > 0;
+    if (!out[c].told_apart) {
+      out[c].noise_alone = out[c].with_unknown;
+      return;
+    }
+    e.data.smooth.resize(readings, 0);
+    e.data.hats.resize(readings, 0);
+    out[c].noise_alone = profile(std::move(e));
   });
+  return out;
+}
+
+double jointDeviance(const NoiseProfiles& profiles, std::vector<double> NoiseProfile::*profile) {
+  double out = 0.0;
+  for (const std::size_t from : {0, 3}) {
+    // Likelihood of all components for each common size, over that without any shifts.
+    std::vector<double> ln_level(shift_sizes, 0.0);
+    bool shifted = false;
+    for (std::size_t c = from; c < from + 3; ++c) {
+      const std::vector<double>& deviance = profiles[c].*profile;
+      if (deviance.empty()) continue;
+      out += deviance.back();
+      if (deviance.size() == 1) continue;
+      shifted = true;
+      for (int level = 0; level < shift_sizes; ++level) {
+        double prior = 0.0;
+        double likelihood = 0.0;
+        const double least = *std::min_element(deviance.begin(), deviance.end());
+        for (int i = 0; i < shift_sizes; ++i) {
+          const double w = std::exp(-0.5 * std::pow(shift_step * (i - level) / unlike_shifts_sd, 2));
+          prior += w;
+          likelihood += w * std::exp(-0.5 * (deviance[static_cast<std::size_t>(i)] - least));
+        }
+        const double none = std::exp(-0.5 * (deviance.back() - least));
+        ln_level[static_cast<std::size_t>(level)] +=
+            std::log(shifted_too * likelihood / prior + (1.0 - shifted_too) * none) - std::log(none);
+      }
+    }
+    if (!shifted) continue;
+    const double most = std::max(0.0, *std::max_element(ln_level.begin(), ln_level.end()));
+    double sum = (1.0 - shifts_at_all) * std::exp(-most);
+    for (const double ln : ln_level) sum += shifts_at_all / shift_sizes * std::exp(ln - most);
+    out -= 2.0 * (most + std::log(sum));
+  }
   return out;
 }
 

@@ -201,9 +201,22 @@ class ResidualProblem {
 /// Sources: Patterson and Thompson 1971 (REML); Lange, Little and Taylor 1989 (Student-t weights).
 [[nodiscard]] NoiseModel estimateNoise(const ResidualProblem& problem, const Eigen::VectorXd& residual, bool fitted);
 
-/// -2 ln of that restricted likelihood for the components in `which`, at the weights of the problem's noise: how
-/// probable a residual is when noise and smooth remainder are made as large as it needs.
-[[nodiscard]] std::array<double, 6> noiseDeviance(const ResidualProblem& problem, const Eigen::VectorXd& residual,
-                                                  const std::array<bool, 6>& which);
+/// How probable a residual of one component is under noise that is made as large as it needs: -2 ln of the restricted
+/// likelihood for every size of the shifts of states, the last without any; one value where states cannot be shifted.
+struct NoiseProfile {
+  std::vector<double> with_unknown;  ///< a smooth remainder and courses of single series beside the noise, as needed
+  std::vector<double> noise_alone;   ///< nothing beside the noise
+  bool told_apart = true;            ///< false: too few readings for anything smooth, both are the same
+};
+using NoiseProfiles = std::array<NoiseProfile, 6>;
+
+/// Of the components in `which`, at the weights of the problem's noise; the others stay empty.
+[[nodiscard]] NoiseProfiles noiseProfiles(const ResidualProblem& problem, const Eigen::VectorXd& residual,
+                                          const std::array<bool, 6>& which);
+
+/// -2 ln of the likelihood of all components together, the sizes of their shifts averaged over: what shifts a state
+/// belongs to the instrument (re-referencing, refocus), so the components of one unit have shifts of about one size, or
+/// none. `profile`: which of the two; components without one are left out.
+[[nodiscard]] double jointDeviance(const NoiseProfiles& profiles, std::vector<double> NoiseProfile::*profile);
 
 }  // namespace spindrift

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What noise alone explains is neither named nor told as left: shifts that all points of a state have in common, judged
+// over all axes, beside smooth courses that nobody knows.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "core/base/random.h"
+#include "core/discrepancy/residual_problem.h"
+
+namespace spindrift {
+namespace {
+
+constexpr std::size_t points = 8;
+constexpr std::size_t states = 24;
+constexpr double own_um = 0.6;
+constexpr std::array<Component, 3> axes = {Component::EX, Component::EY, Component::EZ};
+constexpr std::array<bool, 6> translations = {true, true, true, false, false, false};
+
+/// Readings that hold own noise, shifts of X, Y, Z (standard deviations, um) and a slow wave along Z (amplitude, um).
+DiscrepancyInput readings(std::uint64_t seed, const std::array<double, 3>& shifts_um, double wave_um) {
+  Random random(seed);
+  DiscrepancyInput in;
+  for (std::size_t k = 0; k < states; ++k) {
+    std::array<double, 3> common{};
+    for (std::size_t c = 0; c < 3; ++c) common[c] = shifts_um[c] * random.normal();
+    common[2] += wave_um * std::sin(6.28 * static_cast<double>(k) / static_cast<double>(states));
+    for (std::size_t p = 0; p < points; ++p) {
+      for (std::size_t c = 0; c < 3; ++c) {
+        Observation o;
+        o.time_s = 1200.0 * static_cast<double>(k) + 8.0 * static_cast<double>(p);
+        o.state = "M" + std::to_string(k);
+        o.point = "P" + std::to_string(p);
+        o.position_mm = {40.0 * static_cast<double>(p % 4), 60.0 * static_cast<double>(p / 4), 0.0};
+        o.component = axes[c];
+        o.sigma = own_um;
+        o.value = common[c] + own_um * random.normal();
+        in.observations.rows.push_back(o);
+      }
+    }
+  }
+  in.predicted.assign(in.observations.rows.size(), 0.0);
+  return in;
+}
+
+NoiseProfiles profilesOf(const DiscrepancyInput& in) {
+  std::vector<std::size_t> rows(in.observations.rows.size());
+  for (std::size_t i = 0; i < rows.size(); ++i) rows[i] = i;
+  ResidualProblem problem(in, rows, 3000);
+  problem.setNoise(estimateNoise(problem, problem.y, true));
+  return noiseProfiles(problem, problem.y, translations);
+}
+
+/// 2 ln of the odds of something smooth in Z beside the noise.
+double smoothOdds(const NoiseProfiles& profiles) {
+  return jointDeviance(profiles, &NoiseProfile::noise_alone) - jointDeviance(profiles, &NoiseProfile::with_unknown);
+}
+
+/// 2 ln of the odds of shifts along Z against none, whatever X and Y have.
+double shiftOdds(NoiseProfiles profiles) {
+  const double as_it_is = jointDeviance(profiles, &NoiseProfile::noise_alone);
+  std::vector<double>& z = profiles[static_cast<std::size_t>(Component::EZ)].noise_alone;
+  constexpr double impossible = 1e6;
+  for (std::size_t i = 0; i + 1 < z.size(); ++i) z[i] += impossible;
+  return jointDeviance(profiles, &NoiseProfile::noise_alone) - as_it_is;
+}
+
+TEST(NoiseAlone, ExplainsShiftsOfStatesAndNoSlowWave) {
+  constexpr int campaigns = 30;
+  constexpr double told = 10.0;
+  int shifts_told = 0;
+  int waves_told = 0;
+  for (int i = 0; i < campaigns; ++i) {
+    const auto seed = 500 + static_cast<std::uint64_t>(i);
+    shifts_told += smoothOdds(profilesOf(readings(seed, {0.4, 0.4, 0.4}, 0.0))) >= told ? 1 : 0;
+    waves_told += smoothOdds(profilesOf(readings(seed, {0.0, 0.0, 0.0}, 0.6))) >= told ? 1 : 0;
+  }
+  EXPECT_EQ(shifts_told, 0);
+  EXPECT_EQ(waves_told, campaigns);
+}
+
+TEST(NoiseAlone, ShiftsOfOtherAxesSpeakForThoseOfThis) {
+  // As large as the scatter of a state's mean: alone hardly to be seen.
+  constexpr double shift_um = 0.25;
+  constexpr int campaigns = 30;
+  double beside_shifted = 0.0;
+  double beside_still = 0.0;
+  int never = 0;
+  for (int i = 0; i < campaigns; ++i) {
+    const auto seed = 900 + static_cast<std::uint64_t>(i);
+    beside_shifted += shiftOdds(profilesOf(readings(seed, {shift_um, shift_um, shift_um}, 0.0))) / campaigns;
+    beside_still += shiftOdds(profilesOf(readings(seed, {0.0, 0.0, shift_um}, 0.0))) / campaigns;
+    never += shiftOdds(profilesOf(readings(seed, {0.0, 0.0, 0.0}, 0.0))) > 4.0 ? 1 : 0;
+  }
+  EXPECT_GT(beside_shifted, beside_still + 2.0);
+  EXPECT_LE(never, 1);
+}
+
+TEST(NoiseAlone, IsNotToldApartFromWhatIsSmoothByReadingsOnceEach) {
+  DiscrepancyInput in = readings(7, {0.0, 0.0, 0.0}, 1.0);
+  in.observations.rows.resize(9 * 3);
+  in.predicted.resize(in.observations.rows.size());
+  const NoiseProfiles profiles = profilesOf(in);
+  const NoiseProfile& z = profiles[static_cast<std::size_t>(Component::EZ)];
+  EXPECT_FALSE(z.told_apart);
+  EXPECT_EQ(z.noise_alone, z.with_unknown);
+}
+
+}  // namespace
+}  // namespace spindrift
