@@ -372,8 +372,14 @@ TEST_P(JobsMidway, LosesAndMixesNothing) {
                            after = {{"rejected", {"spindle.growth.x"}}};
                          } else if (std::string(c.option) == option_keys::verify) {
                            after["goal_um"] = 7.5;
-                         } else {
-                           after["of_a_test"] = 1;
+                         } else if (std::string(c.option) == option_keys::nine_parameters) {
+                           after["robust"] = 1;
+                         } else if (std::string(c.option) == option_keys::cycles) {
+                           after["second_axis"] = true;
+                         } else if (std::string(c.option) == option_keys::thermal) {
+                           after["method"] = "oe";
+                         } else if (std::string(c.option) == option_keys::compensation) {
+                           after["positions"] = 7;
                          }
                          return new OptionsCommand(session_(), QStringLiteral("change"), key, after, {});
                        }});
