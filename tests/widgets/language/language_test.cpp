@@ -402,7 +402,8 @@ TEST_F(LanguageTest, EveryPageOfTheHelpIsReadAndInGerman) {
     ASSERT_EQ(english.size(), german.size()) << page.toStdString();
     for (int i = 0; i < english.size(); ++i) {
       EXPECT_FALSE(english[i].contains(QLatin1String("</"))) << english[i].toStdString();
-      if (english[i].size() > 40) {
+      // Formulas are the same.
+      if (english[i].size() > 40 && english[i].contains(QRegularExpression(QStringLiteral("[a-z]{5}")))) {
         EXPECT_NE(english[i], german[i]) << page.toStdString();
       }
     }

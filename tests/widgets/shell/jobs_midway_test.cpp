@@ -445,7 +445,8 @@ INSTANTIATE_TEST_SUITE_P(Jobs, JobsMidway, ::testing::ValuesIn(cases()), [](cons
 
 TEST(JobsMidwayCases, EveryJobOfAPageIsAmongThem) {
   // What belongs to no campaign (plant, exercises), one picture or cloud that was picked, and what has tests of its own
-  // (scanning_pages_test, simulation_panel_test, compensate_page_test, review_page_test, campaigns_test).
+  // (scanning_pages_test, simulation_panel_test, compensate_page_test, nine_parameter_page_test, review_page_test,
+  // campaigns_test).
   const std::set<QString> elsewhere{QStringLiteral("Decoding %1"),
                                     QStringLiteral("Reading %1"),
                                     QStringLiteral("Comparing scans"),
@@ -454,13 +455,20 @@ TEST(JobsMidwayCases, EveryJobOfAPageIsAmongThem) {
                                     QStringLiteral("Putting it into the simulation"),
                                     QStringLiteral("Reading the model"),
                                     QStringLiteral("Reading the six errors"),
+                                    QStringLiteral("Reading the fit"),
+                                    QStringLiteral("Reading the contrast curves"),
                                     QStringLiteral("Reading the log that is being recorded"),
                                     QStringLiteral("Running what is outdated")};
   std::set<QString> tested;
   for (const Case& c : cases()) tested.insert(QString::fromLatin1(c.title));
   const QRegularExpression job(QStringLiteral(
-      R"re((?:\brun_?\(|\bdisplay\(|\bshowAgain\(|\bTasks::|\bjob\.title = |\bQString title = |pending, )\s*tr\("([^"]+)")re"));
+      R"re((?:\brun_?\(|\bdisplay\(|\bshown\([\w"-]+, |\bjob\.title = |\bQString title = |pending, )\s*tr\("([^"]+)")re"));
   int found = 0;
+  for (const TaskKind& kind : taskKinds()) {
+    ++found;
+    const QString title = QString::fromUtf8(kind.title.data(), static_cast<qsizetype>(kind.title.size()));
+    EXPECT_TRUE(tested.contains(title) || elsewhere.contains(title)) << title.toStdString();
+  }
   for (const char* folder : {"pages", "panels", "jobs"}) {
     QDirIterator files(QStringLiteral(SPINDRIFT_SOURCE_DIR "/widgets/") + QLatin1String(folder),
                        {QStringLiteral("*.cpp")}, QDir::Files, QDirIterator::Subdirectories);
