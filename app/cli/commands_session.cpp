@@ -97,7 +97,8 @@ CommandResult stateOf(const SessionArguments& arguments, JobContext& job) {
 void addSessionCommands(CLI::App& app, CommandLine& line) {
   auto arguments = std::make_shared<SessionArguments>();
   std::vector<std::string> allowed;
-  for (const TaskKind& kind : taskKinds()) allowed.emplace_back(kind.id);
+  for (const TaskKind& kind : taskKinds())
+    if (allowed.empty() || allowed.back() != kind.id) allowed.emplace_back(kind.id);
   allowed.emplace_back(outdated_tasks);
   CLI::App* command = addCommand(app, line, "session",
                                  "Show the status of every campaign of a session: what is done, outdated (and why) or "

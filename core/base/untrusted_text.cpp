@@ -38,14 +38,30 @@ std::size_t firstInvalidUtf8(std::string_view text) noexcept {
   return std::string_view::npos;
 }
 
+namespace {
+
+/// U+202A to U+202E and U+2066 to U+2069: what stands behind one of them is read in another direction.
+bool turnsText(std::string_view three) {
+  if (three.size() < 3 || three[0] != '\xE2') return false;
+  return (three[1] == '\x80' && three[2] >= '\xAA' && three[2] <= '\xAE') ||
+         (three[1] == '\x81' && three[2] >= '\xA6' && three[2] <= '\xA9');
+}
+
+}  // namespace
+
 std::string printable(std::string_view text) {
   std::string out;
   out.reserve(text.size());
   while (!text.empty()) {
     const std::size_t good = std::min(firstInvalidUtf8(text), text.size());
-    for (const char c : text.substr(0, good)) {
-      const auto byte = static_cast<unsigned char>(c);
-      out += byte < 0x20 || byte == 0x7F ? ' ' : c;
+    for (std::size_t i = 0; i < good; ++i) {
+      const auto byte = static_cast<unsigned char>(text[i]);
+      if (turnsText(text.substr(i, 3))) {
+        out += "\uFFFD";
+        i += 2;
+      } else {
+        out += byte < 0x20 || byte == 0x7F ? ' ' : text[i];
+      }
     }
     text.remove_prefix(good);
     if (text.empty()) break;

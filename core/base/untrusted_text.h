@@ -12,8 +12,8 @@ namespace spindrift {
 /// there is none.
 [[nodiscard]] std::size_t firstInvalidUtf8(std::string_view text) noexcept;
 
-/// The text as part of a sentence: bytes that are no UTF-8 become U+FFFD, line breaks and other control characters
-/// blanks.
+/// The text as part of a sentence: bytes that are no UTF-8 and characters that turn the direction of a text become
+/// U+FFFD, line breaks and other control characters blanks.
 [[nodiscard]] std::string printable(std::string_view text);
 
 /// A name of a file, whatever its bytes, as UTF-8: bytes that are none are written as "\xE4", and the backslash of a

@@ -40,9 +40,22 @@ struct BallDistance {
   Eigen::Vector3d components_um = Eigen::Vector3d::Zero();  ///< measured minus certified vector, MCF
 };
 
+/// The closed forms beside the joint evaluation: core/probing/closed_forms.h.
+struct HeadComparison {
+  std::string cycle;
+  std::string ball;
+  std::optional<Eigen::Vector3d> closed_form_urad;             ///< (7)-(9); nothing: degenerate, see `message`
+  Eigen::Vector3d joint_urad = Eigen::Vector3d::Zero();        ///< hX, hY, hZ
+  Eigen::Vector3d joint_sigma_urad = Eigen::Vector3d::Zero();  ///< standard uncertainty
+  double spindle_drift_um = 0.0;                               ///< (10)
+  double joint_drift_um = 0.0;                                 ///< length of (dX, dY, dZ)
+  std::string message;
+};
+
 struct BallCycleResult : CycleEvaluation {
   std::vector<BallDistance> distances;
   Eigen::Vector3d fixed_bearing_mm = Eigen::Vector3d::Zero();
+  std::vector<HeadComparison> closed_forms;
 };
 
 /// hX_urad ... gZ_um_per_m.

@@ -7,25 +7,11 @@
 // (drift, screws, column) counts as a rotation; the joint evaluation (ball_cycle.h) separates them. Units: urad, um.
 #pragma once
 
-#include <Eigen/Core>
-#include <optional>
-#include <string>
 #include <vector>
 
 #include "core/probing/ball_cycle.h"
 
 namespace spindrift {
-
-struct HeadComparison {
-  std::string cycle;
-  std::string ball;
-  std::optional<Eigen::Vector3d> closed_form_urad;             ///< (7)-(9); nothing: degenerate, see `message`
-  Eigen::Vector3d joint_urad = Eigen::Vector3d::Zero();        ///< hX, hY, hZ
-  Eigen::Vector3d joint_sigma_urad = Eigen::Vector3d::Zero();  ///< standard uncertainty
-  double spindle_drift_um = 0.0;                               ///< (10)
-  double joint_drift_um = 0.0;                                 ///< length of (dX, dY, dZ)
-  std::string message;
-};
 
 /// One per cycle after the first and ball that three styli touched in both; empty with fewer than three styli.
 [[nodiscard]] std::vector<HeadComparison> closedFormsBeside(const BallCycleResult& balls,

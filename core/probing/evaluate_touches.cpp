@@ -218,9 +218,12 @@ TouchEvaluation evaluateTouchList(const Campaign& campaign, TouchList touches, c
     if (artefact.kind == "hole_bar") {
       evaluation.hole_cycles.push_back(evaluateHoleCycles(evaluation.touches, campaign.machine, artefact, hole_options,
                                                           campaign.log ? &*campaign.log : nullptr));
+      evaluation.hole_cycles.back().bias = secondAxisBias(evaluation.hole_cycles.back(), evaluation.touches);
     } else {
       evaluation.ball_cycles.push_back(evaluateBallCycles(evaluation.touches, campaign.machine, artefact,
                                                           campaign.log ? &*campaign.log : nullptr, ball_options));
+      BallCycleResult& balls = evaluation.ball_cycles.back();
+      balls.closed_forms = closedFormsBeside(balls, campaign.machine);
     }
   }
   return evaluation;
@@ -256,10 +259,10 @@ InstrumentEvaluation describeTouches(const TouchEvaluation& evaluation, const Ma
           last.temperature_degC ? fmt::format(" (bar at {:.2f} °C)", *last.temperature_degC)
                                 : std::string(" (temperature of the bar not known: taken as that of the certificate)"));
     }
-    const SecondAxisBias bias = secondAxisBias(holes, evaluation.touches);
     nlohmann::json per = nlohmann::json::object();
-    for (std::size_t p = 0; p < bias.names.size(); ++p) per[bias.names[p]] = bias.bias_per_um_per_m[p];
-    details["bias_per_um_per_m_of_second_axis"] = {{"axis", bias.second}, {"bias", per}};
+    for (std::size_t p = 0; p < holes.bias.names.size(); ++p)
+      per[holes.bias.names[p]] = holes.bias.bias_per_um_per_m[p];
+    details["bias_per_um_per_m_of_second_axis"] = {{"axis", holes.bias.second}, {"bias", per}};
     out.summary += fmt::format("  largest deviation from a straight line {:.2f} µm\n", holes.largest_nonlinearity_um);
   }
   for (const BallCycleResult& balls : evaluation.ball_cycles) {
@@ -275,7 +278,7 @@ InstrumentEvaluation describeTouches(const TouchEvaluation& evaluation, const Ma
                            {"standard_uncertainty_um", jsonNumber(d.standard_uncertainty_um)}});
     }
     details["ball_distances"] = distances;
-    details["closed_forms"] = closedFormsJson(closedFormsBeside(balls, machine));
+    details["closed_forms"] = closedFormsJson(balls.closed_forms);
   }
   return out;
 }

@@ -120,6 +120,14 @@ struct ExpectedGrowth {
   double measured_sigma_um_per_m = 0.0;
 };
 
+/// What an unmodelled expansion of the second axis by 1 um/m does to each parameter (in its unit), for the touches of
+/// one cycle; `with_stable_length` gives the same for the extended evaluation (zero up to the trust in the length).
+struct SecondAxisBias {
+  std::string second;
+  std::vector<std::string> names;
+  std::vector<double> bias_per_um_per_m;
+};
+
 struct HoleCycleResult : CycleEvaluation {
   HoleBarSetup setup;
   std::vector<CertifiedLengths> against_certificate;  ///< empty without "certificate_uncertainty_um"
@@ -129,6 +137,7 @@ struct HoleCycleResult : CycleEvaluation {
   bool growth_combined = false;
   std::vector<LinearityDeviation> linearity;
   double largest_nonlinearity_um = 0.0;
+  SecondAxisBias bias;
 };
 
 /// Touches of one hole bar over all cycles. `log` (may be null) tells the temperature of the bar. Throws InputError if
@@ -137,13 +146,7 @@ struct HoleCycleResult : CycleEvaluation {
                                                  const Artefact& artefact, const HoleCycleOptions& options = {},
                                                  const OperatingLog* log = nullptr);
 
-/// What an unmodelled expansion of the second axis by 1 um/m does to each parameter (in its unit), for the touches of
-/// one cycle; `with_stable_length` gives the same for the extended evaluation (zero up to the trust in the length).
-struct SecondAxisBias {
-  std::string second;
-  std::vector<std::string> names;
-  std::vector<double> bias_per_um_per_m;
-};
+/// Of an evaluation and the touches that it is of.
 [[nodiscard]] SecondAxisBias secondAxisBias(const HoleCycleResult& result, const TouchList& list);
 
 }  // namespace spindrift

@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <utility>
 
 #include "core/base/error.h"
+#include "core/base/untrusted_text.h"
 
 namespace spindrift {
 namespace {
@@ -18,6 +20,10 @@ void move(Drawing::Path& path, double dx, double dy) {
     }
   }
 }
+bool nowhere(const Drawing::Point& p) {
+  return !std::isfinite(p[0]) || !std::isfinite(p[1]);
+}
+
 void move(Drawing::WindowEnd&, double, double) {}
 template <typename Shape>
 void move(Shape& shape, double dx, double dy) {
@@ -41,6 +47,7 @@ Drawing::Drawing(double width_px, double height_px) : width_(width_px), height_(
 }
 
 void Drawing::rectangle(double x, double y, double width, double height, const Paint& paint) {
+  if (!std::isfinite(x + y + width + height)) return;
   shapes_.push_back(Rectangle{x, y, width, height, paint});
 }
 void Drawing::rectangle(double x, double y, double width, double height, PictureColour fill) {
@@ -50,16 +57,19 @@ void Drawing::line(double x1, double y1, double x2, double y2, PictureColour col
   path({{{x1, y1}, {x2, y2}}}, {.stroke = colour, .width = width, .opacity = opacity, .round = width > 1.0});
 }
 void Drawing::disc(double x, double y, double radius, PictureColour fill, std::optional<PictureColour> border) {
+  if (!std::isfinite(x + y + radius)) return;
   shapes_.push_back(Disc{x, y, radius, {.fill = fill, .stroke = border}});
 }
 void Drawing::polygon(std::vector<Point> corners, const Paint& paint) {
+  std::erase_if(corners, nowhere);
   shapes_.push_back(Path{{std::move(corners)}, true, paint});
 }
 void Drawing::path(std::vector<std::vector<Point>> strokes, const Paint& paint) {
+  for (std::vector<Point>& stroke : strokes) std::erase_if(stroke, nowhere);
   shapes_.push_back(Path{std::move(strokes), false, paint});
 }
 void Drawing::text(double x, double y, std::string_view text, const TextLook& look) {
-  shapes_.push_back(Text{x, y, std::string(text), look});
+  if (std::isfinite(x + y + look.size)) shapes_.push_back(Text{x, y, printable(text), look});
 }
 void Drawing::text(double x, double y, std::string_view words, double size, TextAnchor anchor, bool bold, bool upwards,
                    bool halo) {

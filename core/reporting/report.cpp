@@ -7,6 +7,7 @@
 #include <cctype>
 
 #include "core/base/error.h"
+#include "core/base/untrusted_text.h"
 
 namespace spindrift {
 namespace {
@@ -22,10 +23,22 @@ bool isOfWords(const std::vector<ReportRow>& rows, std::size_t column) {
   });
 }
 
+/// What names and notes hold may be anything: what cannot be set is taken out here, for all writers. Lines stay.
+std::string settable(std::string_view text) {
+  std::string out;
+  for (std::size_t at = 0; at <= text.size();) {
+    const std::size_t end = std::min(text.find('\n', at), text.size());
+    out += printable(text.substr(at, end - at));
+    if (end < text.size()) out += '\n';
+    at = end + 1;
+  }
+  return out;
+}
+
 }  // namespace
 
 ReportText::ReportText(std::string text) {
-  if (!text.empty()) runs.push_back({std::move(text), false});
+  if (!text.empty()) runs.push_back({settable(text), false});
 }
 
 ReportText ReportText::smallPrint(std::string_view text) {
@@ -40,7 +53,8 @@ std::string ReportText::plain() const {
   return text;
 }
 
-Report::Report(std::string title, std::string subtitle) : title_(std::move(title)), subtitle_(std::move(subtitle)) {}
+Report::Report(std::string_view title, std::string_view subtitle)
+    : title_(printable(title)), subtitle_(printable(subtitle)) {}
 
 Report& Report::section(const ReportText& heading) {
   blocks_.emplace_back(HeadingBlock{1, heading});
@@ -65,8 +79,9 @@ Report& Report::callout(CalloutKind kind, const ReportText& text) {
 Report& Report::table(ReportRow header, std::vector<ReportRow> rows, std::string_view caption) {
   SPINDRIFT_ASSERT(!header.empty(), "a table has a header");
   ++tables_;
+  if (rows.empty()) rows.push_back({"none"});
   TableBlock table{std::move(header), std::move(rows), {}, {}};
-  if (!caption.empty()) table.caption = fmt::format("Table {}: {}", tables_, caption);
+  if (!caption.empty()) table.caption = fmt::format("Table {}: {}", tables_, printable(caption));
   for (ReportRow& row : table.rows) row.resize(table.header.size());
   for (std::size_t i = 0; i < table.header.size(); ++i) table.of_words.push_back(i > 0 && isOfWords(table.rows, i));
   blocks_.emplace_back(std::move(table));
@@ -81,12 +96,12 @@ Report& Report::facts(const ReportFacts& rows) {
 }
 
 Report& Report::figure(Drawing drawing, std::string_view caption) {
-  blocks_.emplace_back(FigureBlock{std::move(drawing), fmt::format("Figure {}: {}", ++figures_, caption)});
+  blocks_.emplace_back(FigureBlock{std::move(drawing), fmt::format("Figure {}: {}", ++figures_, printable(caption))});
   return *this;
 }
 
 Report& Report::code(std::string_view text) {
-  blocks_.emplace_back(CodeBlock{std::string(text)});
+  blocks_.emplace_back(CodeBlock{settable(text)});
   return *this;
 }
 

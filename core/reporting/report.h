@@ -73,12 +73,13 @@ using ReportBlock = std::variant<HeadingBlock, TextBlock, CalloutBlock, TableBlo
 
 class Report {
  public:
-  Report(std::string title, std::string subtitle);
+  Report(std::string_view title, std::string_view subtitle);
 
   Report& section(const ReportText& heading);
   Report& subsection(const ReportText& heading);
   Report& paragraph(const ReportText& text);
   Report& callout(CalloutKind kind, const ReportText& text);
+  /// Without rows it says "none".
   Report& table(ReportRow header, std::vector<ReportRow> rows, std::string_view caption = {});
   Report& facts(const ReportFacts& rows);
   Report& figure(Drawing drawing, std::string_view caption);

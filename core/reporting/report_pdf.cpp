@@ -105,16 +105,15 @@ class Setter {
   void operator()(const CalloutBlock& b) {
     constexpr double bar = 4.0, inside = 12.0, padding = 8.0;
     const Layout words = layout(b.text, text_px, true, text_width - bar - 2.0 * inside);
-    const double height = heightOf(words.get()) + 2.0 * padding;
-    add(height, 10.0, false, [=, colour = calloutColour(b.kind)](cairo_t* c) {
-      setColour(c, pale);
-      cairo_rectangle(c, 0.0, 0.0, text_width, height);
-      cairo_fill(c);
-      setColour(c, colour);
-      cairo_rectangle(c, 0.0, 0.0, bar, height);
-      cairo_fill(c);
-      show(c, words, bar + inside, padding, text_ink);
-    });
+    sideBySide({words}, {bar + inside}, {text_ink}, padding, 10.0, text_height,
+               [colour = calloutColour(b.kind)](cairo_t* c, double height, bool) {
+                 setColour(c, pale);
+                 cairo_rectangle(c, 0.0, 0.0, text_width, height);
+                 cairo_fill(c);
+                 setColour(c, colour);
+                 cairo_rectangle(c, 0.0, 0.0, bar, height);
+                 cairo_fill(c);
+               });
     above_ = 10.0;
   }
 
@@ -158,17 +157,21 @@ class Setter {
   void operator()(const TableBlock& b) {
     if (b.rows.empty() && b.header.empty()) return;
     if (!b.caption.empty()) text(b.caption, small_px, false, soft, 10.0, true);
-    const auto [px, widths] = columnsOf(b);
+    const Columns columns = columnsOf(b);
     const bool whole = b.rows.size() <= longest_unbroken_pdf_table;
     std::optional<std::size_t> header;
     if (!b.header.empty()) {
       header = pieces.size();
-      row(b, b.header, px, widths, true);
+      row(b, b.header, columns, true, text_height);
       pieces.back().with_next = true;
+      // A header that fills half a page is not repeated.
+      if (pieces.size() > *header + 1 || pieces.back().height > 0.5 * text_height) header = std::nullopt;
     }
+    const double room = text_height - (header ? pieces[*header].height : 0.0);
     for (std::size_t i = 0; i < b.rows.size(); ++i) {
-      row(b, b.rows[i], px, widths, false);
-      pieces.back().header = header;
+      const std::size_t first = pieces.size();
+      row(b, b.rows[i], columns, false, room);
+      for (std::size_t part = first; part < pieces.size(); ++part) pieces[part].header = header;
       pieces.back().with_next = i + 1 < b.rows.size() && (whole || i == 0 || i + 2 == b.rows.size());
     }
     above_ = 14.0;
@@ -239,33 +242,33 @@ class Setter {
   /// Line by line, so that a long text may go on on the next page: two lines at least stay together.
   void text(const ReportText& words, double px, bool bold, PictureColour colour, double above, bool with_next) {
     const Layout set = layout(words, px, bold, text_width);
-    const int lines = pango_layout_get_line_count(set.get());
-    PangoLayoutIter* at = pango_layout_get_iter(set.get());
-    for (int i = 0; i < lines; ++i) {
-      int top = 0, bottom = 0;
-      pango_layout_iter_get_line_yrange(at, &top, &bottom);
-      const double base = static_cast<double>(pango_layout_iter_get_baseline(at) - top) / PANGO_SCALE;
-      PangoLayoutLine* line = pango_layout_iter_get_line_readonly(at);
-      const bool together = with_next || i == 0 || i + 2 == lines;
-      add(static_cast<double>(bottom - top) / PANGO_SCALE, i == 0 ? above : 0.0, i + 1 < lines ? together : with_next,
-          [set, line, base, colour](cairo_t* c) {
+    const std::vector<Line> lines = linesOf(set.get());
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      const bool together = with_next || i == 0 || i + 2 == lines.size();
+      add(lines[i].bottom - lines[i].top, i == 0 ? above : 0.0, i + 1 < lines.size() ? together : with_next,
+          [set, line = lines[i].line, base = lines[i].base - lines[i].top, colour](cairo_t* c) {
             setColour(c, colour);
             cairo_move_to(c, 0.0, base);
             pango_cairo_show_layout_line(c, line);
           });
-      pango_layout_iter_next_line(at);
     }
-    pango_layout_iter_free(at);
     above_ = 4.0;
   }
 
+  struct Columns {
+    double px = small_px;  ///< of the type
+    std::vector<double> widths;
+    double gap = cell_gap;
+  };
+
   /// The size of the type and the widths of the columns: as wide as their content; where that does not fit, columns of
   /// words are broken first, then the type gets smaller.
-  [[nodiscard]] std::pair<double, std::vector<double>> columnsOf(const TableBlock& b) const {
+  [[nodiscard]] Columns columnsOf(const TableBlock& b) const {
     if (b.isFacts()) return {small_px + 1.0, {0.32 * text_width - cell_gap, 0.68 * text_width}};
     const std::size_t columns = b.header.size();
     double px = columns > 7 ? small_px - 1.0 : columns > 5 ? small_px : small_px + 1.0;
-    const double room = text_width - cell_gap * static_cast<double>(columns - 1);
+    const double gap = std::min(cell_gap, 0.3 * text_width / static_cast<double>(columns));
+    const double room = text_width - gap * static_cast<double>(columns - 1);
     for (;; px -= 1.0) {
       std::vector<double> least(columns, 0.0), wanted(columns, 0.0);
       const auto weigh = [&](const ReportRow& cells, bool head) {
@@ -284,13 +287,13 @@ class Setter {
       if (narrow > room && px > least_px) continue;
       if (narrow > room) {
         for (double& width : least) width *= room / narrow;
-        return {px, least};
+        return {px, least, gap};
       }
       // Between the least and the wanted widths, or beyond the wanted ones in proportion.
       const double part = wide > narrow ? std::min(1.0, (room - narrow) / (wide - narrow)) : 1.0;
       for (std::size_t i = 0; i < columns; ++i)
         least[i] = wide <= room ? wanted[i] * room / wide : least[i] + part * (wanted[i] - least[i]);
-      return {px, least};
+      return {px, least, gap};
     }
   }
 
@@ -300,23 +303,79 @@ class Setter {
     return std::ceil(widthOf(set.get())) + 1.0;
   }
 
-  void row(const TableBlock& b, const ReportRow& cells, double px, const std::vector<double>& widths, bool head) {
+  void row(const TableBlock& b, const ReportRow& cells, const Columns& columns, bool head, double room) {
     std::vector<Layout> set;
-    double height = 0.0;
+    std::vector<double> left;
+    std::vector<PictureColour> colours;
+    double x = 0.0;
     for (std::size_t i = 0; i < cells.size(); ++i) {
-      set.push_back(layout(cells[i], px, head, widths[i]));
+      set.push_back(layout(cells[i], columns.px, head, columns.widths[i]));
       if (i > 0 && !b.of_words[i]) pango_layout_set_alignment(set.back().get(), PANGO_ALIGN_RIGHT);
-      height = std::max(height, heightOf(set.back().get()));
+      left.push_back(x);
+      colours.push_back(b.isFacts() && i == 0 ? soft : text_ink);
+      x += columns.widths[i] + columns.gap;
     }
-    height += 2.0 * cell_padding;
-    add(height, 0.0, false, [=, facts = b.isFacts()](cairo_t* c) {
-      double x = 0.0;
-      for (std::size_t i = 0; i < set.size(); ++i) {
-        show(c, set[i], x, cell_padding, facts && i == 0 ? soft : text_ink);
-        x += widths[i] + cell_gap;
-      }
-      rule(c, height, head ? soft : line_colour, head ? 1.0 : 0.6);
+    sideBySide(set, left, colours, cell_padding, 0.0, room, [head](cairo_t* c, double height, bool last) {
+      if (last) rule(c, height, head ? soft : line_colour, head ? 1.0 : 0.6);
     });
+  }
+
+  struct Line {
+    PangoLayoutLine* line = nullptr;  ///< of its layout
+    double x = 0.0, base = 0.0, top = 0.0, bottom = 0.0;
+  };
+  static std::vector<Line> linesOf(PangoLayout* set) {
+    std::vector<Line> lines;
+    PangoLayoutIter* at = pango_layout_get_iter(set);
+    do {
+      int top = 0, bottom = 0;
+      PangoRectangle box;
+      pango_layout_iter_get_line_yrange(at, &top, &bottom);
+      pango_layout_iter_get_line_extents(at, nullptr, &box);
+      constexpr double unit = 1.0 / PANGO_SCALE;
+      lines.push_back({pango_layout_iter_get_line_readonly(at), unit * box.x, unit * pango_layout_iter_get_baseline(at),
+                       unit * top, unit * bottom});
+    } while (pango_layout_iter_next_line(at) != 0);
+    pango_layout_iter_free(at);
+    return lines;
+  }
+
+  /// Texts side by side with `padding` above and below: one piece, or as many as are needed where that is higher than
+  /// `room`. `around` draws what stands behind and beneath: the height of a piece, and whether it is the last.
+  void sideBySide(const std::vector<Layout>& set, const std::vector<double>& left,
+                  const std::vector<PictureColour>& colours, double padding, double above, double room,
+                  const std::function<void(cairo_t*, double, bool)>& around) {
+    std::vector<std::vector<Line>> rest;
+    for (const Layout& one : set) rest.push_back(linesOf(one.get()));
+    for (bool more = true; more; above = 0.0) {
+      more = false;
+      double height = 0.0;
+      std::vector<std::vector<Line>> part(set.size());
+      for (std::size_t i = 0; i < set.size(); ++i) {
+        std::size_t count = 0;
+        const double top = rest[i].empty() ? 0.0 : rest[i].front().top;
+        while (count < rest[i].size() && (count == 0 || rest[i][count].bottom - top <= room - 2.0 * padding)) ++count;
+        part[i].assign(rest[i].begin(), rest[i].begin() + static_cast<std::ptrdiff_t>(count));
+        for (Line& line : part[i]) {
+          line.base += padding - top;
+          height = std::max(height, line.bottom - top);
+        }
+        rest[i].erase(rest[i].begin(), rest[i].begin() + static_cast<std::ptrdiff_t>(count));
+        more = more || !rest[i].empty();
+      }
+      height += 2.0 * padding;
+      // The lines are those of the layouts, which have to live as long.
+      add(height, above, false, [set, part = std::move(part), left, colours, around, height, last = !more](cairo_t* c) {
+        around(c, height, last);
+        for (std::size_t i = 0; i < part.size(); ++i) {
+          setColour(c, colours[i]);
+          for (const Line& line : part[i]) {
+            cairo_move_to(c, left[i] + line.x, line.base);
+            pango_cairo_show_layout_line(c, line.line);
+          }
+        }
+      });
+    }
   }
 
   cairo_t* cairo_;

@@ -93,7 +93,10 @@ nlohmann::json scanJson(const ScanResult& s, const std::string& axis, const Eige
 }  // namespace
 
 InstrumentEvaluation evaluateScans(const Campaign& campaign, const std::string& scan_model, JobContext& job) {
-  const ScanEvaluation evaluation = evaluateScanCampaign(campaign, scan_model, job);
+  return observationsOfScans(campaign, evaluateScanCampaign(campaign, scan_model, job));
+}
+
+InstrumentEvaluation observationsOfScans(const Campaign& campaign, const ScanEvaluation& evaluation) {
   InstrumentEvaluation out;
   out.instrument = "profiler";
   out.rejected = evaluation.rejected;

@@ -5,6 +5,7 @@
 #include "core/base/job_context.h"
 #include "core/machine/campaign.h"
 #include "core/machine/instrument_evaluation.h"
+#include "core/scanning/scan_evaluation.h"
 
 namespace spindrift {
 
@@ -12,5 +13,7 @@ namespace spindrift {
 /// read.
 [[nodiscard]] InstrumentEvaluation evaluateScans(const Campaign& campaign, const std::string& scan_model,
                                                  JobContext& job);
+/// The same of scans that were compared already.
+[[nodiscard]] InstrumentEvaluation observationsOfScans(const Campaign& campaign, const ScanEvaluation& evaluation);
 
 }  // namespace spindrift

@@ -430,7 +430,7 @@ ProfilerCalibration calibrationOf(const Campaign& campaign, const ProfilerDescri
                         .path(profiler.calibration_cloud, {campaign.machine.file, "$.profiler.calibration_cloud"})),
           circle, options);
       if (c.usable()) {
-        if (!c.message.empty()) warnings.push_back("Calibration of the profiler: " + c.message);
+        if (!c.message.empty()) warnings.push_back(calibrationWarning(c));
         return c;
       }
       reason = c.message;
@@ -555,6 +555,10 @@ ScanEvaluation evaluateScanCampaign(const Campaign& campaign, const std::string&
   for (const ScanResult& s : evaluation.scans)
     for (const std::string& w : s.warnings) evaluation.warnings.push_back(w);
   return evaluation;
+}
+
+std::string calibrationWarning(const ProfilerCalibration& calibration) {
+  return "Calibration of the profiler: " + calibration.message;
 }
 
 }  // namespace spindrift

@@ -63,4 +63,7 @@ struct ScanEvaluation {
 [[nodiscard]] ScanEvaluation evaluateScanCampaign(const Campaign& campaign, const std::string& scan_model,
                                                   JobContext& job);
 
+/// Among the warnings of an evaluation: what its calibration could not determine.
+[[nodiscard]] std::string calibrationWarning(const ProfilerCalibration& calibration);
+
 }  // namespace spindrift

@@ -150,9 +150,22 @@ CampaignState CampaignState::read(const Session& session, std::int64_t wanted) {
   state.excluded = excludedItems(session, record.id);
   for (const std::string& kind : session.resultKinds(record.id))
     state.latest[kind] = session.latestResult(record.id, kind);
-  if (const auto evaluation = state.latest.find("evaluate"); evaluation != state.latest.end())
-    state.evaluation = std::make_shared<StoredEvaluation>(evaluationFrom(*evaluation->second));
+  state.readEvaluation();
   return state;
+}
+
+void CampaignState::keep(const std::string& kind, std::optional<StoredResult> result) {
+  latest[kind] = std::move(result);
+  readEvaluation();
+}
+
+void CampaignState::readEvaluation() {
+  const auto found = latest.find("evaluate");
+  if (found == latest.end() || !found->second) {
+    evaluation = nullptr;
+  } else if (evaluation == nullptr || evaluation->id != found->second->id) {
+    evaluation = std::make_shared<StoredEvaluation>(evaluationFrom(*found->second));
+  }
 }
 
 TaskGraph CampaignState::tasks(const Session& session, const TaskLedger& ledger) const {

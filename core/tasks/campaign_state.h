@@ -51,6 +51,11 @@ struct CampaignState {
 
   /// `wanted` 0: the one that was at hand last, else the newest. Throws InputError.
   [[nodiscard]] static CampaignState read(const Session& session, std::int64_t wanted = 0);
+  /// Takes over what was stored as the latest of its kind. Throws InputError as evaluationFrom.
+  void keep(const std::string& kind, std::optional<StoredResult> result);
+  /// The last evaluation, read when it is another than last time; null if there is none. Throws InputError as
+  /// evaluationFrom.
+  void readEvaluation();
   /// Its tasks; this and the ledger have to live as long.
   [[nodiscard]] TaskGraph tasks(const Session& session, const TaskLedger& ledger) const;
 };

@@ -17,9 +17,8 @@ std::optional<StoredResult> simulationUpdateOf(const TaskGraph& graph) {
   const std::string simulator = SimulationOptions::of(graph.session(), graph.campaign(), graph.data()).simulator;
   if (simulator.empty()) return {};
   const std::vector<StoredResult> all = graph.session().resultHeads(graph.campaign(), "simulation");
-  for (auto it = all.rbegin(); it != all.rend(); ++it) {
-    if (it->provenance.options.value("version", "") == simulator) return *it;
-  }
+  for (auto it = all.rbegin(); it != all.rend(); ++it)
+    if (optionsFrom<SimulationOptions>(it->provenance.options).version == simulator) return *it;
   return {};
 }
 
@@ -64,13 +63,12 @@ ReportTask ReportTask::of(const TaskGraph& graph, const ExcludedItems& excluded)
   task.folder = session.folder();
   task.name = fmt::format("reports/report-{}", id);
 
-  const EffectOptions effects = EffectOptions::of(session, id);
+  const ReportTaskOptions asked = ReportTaskOptions::of(session, id);
   auto campaign = std::make_shared<Campaign>(*withoutExcluded(graph.data(), excluded));
   if (campaign->observations)
     campaign->observations = observationsToFit(graph.data(), nullptr, excluded, clockOffsetsOf(session, id));
-  task.campaign = effects.applied(std::move(campaign), EffectOptions::file(session, id));
+  task.campaign = asked.effects.applied(std::move(campaign), EffectOptions::file(session, id));
 
-  const ReportTaskOptions asked = ReportTaskOptions::of(session, id);
   task.options.operator_name = asked.operator_name;
   task.options.discrepancy = asked.tells_discrepancy;
   task.options.stored = storedOf(graph);
@@ -86,17 +84,20 @@ ReportTask ReportTask::of(const TaskGraph& graph, const ExcludedItems& excluded)
   const StoredResult* searched = graph.latest("discrepancy");
   if (searched != nullptr && graph.status("discrepancy").current)
     task.options.story = std::make_shared<const nlohmann::json>(searched->payload);
-  task.options.search.accept = effects.added;
-  task.options.search.reject = effects.rejected;
-  task.options.fit =
-      nineParameterOptions(campaignSetting(session, id, option_keys::nine_parameters, nlohmann::json::object()));
+  task.options.search.accept = asked.effects.added;
+  task.options.search.reject = asked.effects.rejected;
+  task.options.fit = asked.fit.options();
   task.options.fit.state.clear();
   task.options.exclusions.assign(excluded.begin(), excluded.end());
   task.options.notes = asked.notes;
   return task;
 }
 
-nlohmann::json ReportTask::run(JobContext& job) const {
+nlohmann::json WrittenReport::json() const {
+  return {{"file", html}, {"pdf", pdf}, {"bytes", bytes}, {"figures", figures}, {"tables", tables}};
+}
+
+WrittenReport ReportTask::run(JobContext& job) const {
   JobContext computing = job.part(0.0, 0.9);
   const Report report = reportOfCampaign(*campaign, options, computing);
   const std::string html = htmlOf(report);
@@ -105,11 +106,7 @@ nlohmann::json ReportTask::run(JobContext& job) const {
   std::filesystem::create_directories((folder / name).parent_path());
   writeFileAtomically(folder / (name + ".html"), html);
   writeFileAtomically(folder / (name + ".pdf"), pdf.bytes);
-  return {{"file", name + ".html"},
-          {"pdf", name + ".pdf"},
-          {"bytes", html.size()},
-          {"figures", report.figureCount()},
-          {"tables", report.tableCount()}};
+  return {name + ".html", name + ".pdf", html.size(), report.figureCount(), report.tableCount()};
 }
 
 }  // namespace spindrift

@@ -13,6 +13,16 @@
 
 namespace spindrift {
 
+/// The files of a report, by their names in the session's folder.
+struct WrittenReport {
+  std::string html, pdf;
+  std::size_t bytes = 0;  ///< of the HTML
+  int figures = 0;
+  int tables = 0;
+  /// Payload of its result: file, pdf, bytes, figures, tables.
+  [[nodiscard]] nlohmann::json json() const;
+};
+
 /// Everything a report is made of, copied: to be worked on by any thread.
 struct ReportTask {
   std::shared_ptr<const Campaign> campaign;  ///< with the effects as edited; what was excluded is marked
@@ -22,9 +32,9 @@ struct ReportTask {
 
   /// Of the graph's campaign as it is now. Writes the effects as edited into the session's folder.
   [[nodiscard]] static ReportTask of(const TaskGraph& graph, const ExcludedItems& excluded);
-  /// Writes the report as HTML and PDF into the session; returns the payload of its result: file, pdf, bytes, figures,
-  /// tables. Throws InputError and Cancelled; the files of an earlier report stay then.
-  [[nodiscard]] nlohmann::json run(JobContext& job) const;
+  /// Writes the report as HTML and PDF into the session. Throws InputError and Cancelled; the files of an earlier
+  /// report stay then.
+  [[nodiscard]] WrittenReport run(JobContext& job) const;
 };
 
 }  // namespace spindrift

@@ -4,7 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <set>
+#include <system_error>
 
 #include "core/base/count_text.h"
 #include "core/base/csv.h"
@@ -104,12 +106,17 @@ StepReport capture(const TaskGraph& graph, const CaptureCounts& counts) {
   StepReport step = ofTask(graph, "check", how);
   if (graph.latest("check") == nullptr) return step;
   const Checked found = checked(graph);
-  if (step.state == StepState::Outdated && counts.listed > found.all) {
-    return {StepState::InProgress, fmt::format("{} of {} captures are checked.", found.all, counts.listed), found.all,
-            counts.listed};
+  // What was taken out was not looked at, and need not be.
+  const std::size_t wanted = counts.to_check - std::min(counts.to_check, excludedItems(graph).size());
+  if (step.state == StepState::Outdated && wanted > found.all) {
+    return {StepState::InProgress, fmt::format("{} of {} captures are checked.", found.all, wanted), found.all, wanted};
   }
   if (step.state != StepState::Current) return step;
-  if (found.bad == 0) return report(StepState::Current, "All captures are checked.");
+  if (found.bad == 0)
+    return report(StepState::Current, counts.listed > counts.to_check
+                                          ? "The captures checked here can be used; those of other instruments are "
+                                            "judged when they are evaluated."
+                                          : "All captures are checked.");
   return {StepState::Attention, counted(found, "cannot be used. Take them again, or exclude them."), found.bad,
           found.all};
 }
@@ -198,6 +205,13 @@ StepReport verify(const TaskGraph& graph) {
 StepReport warmUp(const TaskGraph& graph) {
   if (graph.facts().log_only)
     return report(StepState::Current, "The campaign is a log over time: no instrument to warm up.");
+  // What was measured of the instrument and speaks against it is said before what somebody states.
+  for (const char* check : {"check-jogs", "check-repeatability"}) {
+    const StoredResult* result = graph.latest(check);
+    if (result == nullptr || result->payload.value("passed", true) || !graph.status(check).current) continue;
+    if (result->payload.value("status", std::string()) == toString(FitStatus::Converged))
+      return report(StepState::Attention, result->payload.value("reason", std::string()));
+  }
   const nlohmann::json given =
       graph.session().setting(campaignKey(option_keys::warm_statement, graph.campaign())).value_or(nlohmann::json());
   if (given.is_object() && given.contains("by"))
@@ -242,7 +256,11 @@ std::string_view toString(StepState state) noexcept {
 
 CaptureCounts CaptureCounts::of(const TaskGraph& graph) {
   CaptureCounts counts;
-  for (const char* list : {"fiducials.csv", "touches.csv", "scans.csv"}) counts.listed += rowsOf(graph.data(), list);
+  for (const char* list : {"fiducials.csv", "touches.csv", "scans.csv"}) {
+    const std::size_t rows = rowsOf(graph.data(), list);
+    if (counts.listed == 0) counts.to_check = rows;
+    counts.listed += rows;
+  }
   const auto kept = graph.session().setting(campaignKey(option_keys::plan, graph.campaign()));
   if (!kept || !kept->is_object() || kept->empty()) return counts;
   try {
@@ -280,7 +298,11 @@ StepReport stepReport(const TaskGraph& graph, StepId step, const CaptureCounts& 
       return review(graph);
     case StepId::Report: {
       StepReport step_report = ofTask(graph, "report", "Write the report.");
-      if (step_report.state == StepState::Current) step_report.sentence = "The report is written.";
+      if (step_report.state != StepState::Current) return step_report;
+      const std::string file = graph.latest("report")->payload.value("file", std::string());
+      if (std::error_code none; !std::filesystem::is_regular_file(graph.session().folder() / file, none))
+        return report(StepState::Attention, "The file of the report is gone. Write it again.");
+      step_report.sentence = "The report is written.";
       return step_report;
     }
   }

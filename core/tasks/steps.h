@@ -37,9 +37,10 @@ struct StepReport {
 
 /// What only the files tell; counted apart because lists have to be read for it.
 struct CaptureCounts {
-  std::size_t listed = 0;   ///< captures in the lists of the campaign
-  std::size_t planned = 0;  ///< items of the plan; 0: there is none
-  std::size_t taken = 0;    ///< of them
+  std::size_t listed = 0;    ///< captures in the lists of the campaign
+  std::size_t to_check = 0;  ///< of these, of the instrument that the check is of
+  std::size_t planned = 0;   ///< items of the plan; 0: there is none
+  std::size_t taken = 0;     ///< of them
   /// Lists and plans that cannot be read count as empty: the pages say so.
   [[nodiscard]] static CaptureCounts of(const TaskGraph& graph);
 };

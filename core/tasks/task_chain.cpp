@@ -50,7 +50,7 @@ void CampaignTasks::runOne(const std::string& task, JobContext& job) {
   try {
     const TaskResult result = work(job, TaskOutput::Payload);
     ledger_.ended(origin);
-    state_.latest[task] = session_.keepResult(origin, result.payload);
+    state_.keep(task, session_.keepResult(origin, result.payload));
   } catch (const InputError& e) {
     ledger_.failed(origin, e.what());
     throw;
@@ -58,8 +58,6 @@ void CampaignTasks::runOne(const std::string& task, JobContext& job) {
     ledger_.ended(origin);
     throw;
   }
-  if (const auto& kept = state_.latest[task]; task == "evaluate" && kept)
-    state_.evaluation = std::make_shared<const StoredEvaluation>(evaluationFrom(*kept));
 }
 
 std::vector<std::string> CampaignTasks::run(const std::string& task, JobContext& job, bool anew) {

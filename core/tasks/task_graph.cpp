@@ -5,35 +5,14 @@
 
 #include <algorithm>
 #include <array>
-#include <optional>
+#include <utility>
 
 #include "core/base/count_text.h"
 #include "core/base/error.h"
-#include "core/session/fingerprint.h"
 #include "core/tasks/task_options.h"
-#include "core/workflows/report_workflow.h"
 
 namespace spindrift {
 namespace {
-
-constexpr std::array kinds{
-    TaskKind{.id = "check"},
-    TaskKind{.id = "evaluate"},
-    TaskKind{.id = "check-jogs", .of_observations = true, .told = true},
-    TaskKind{.id = "check-repeatability", .of_observations = true, .told = true},
-    TaskKind{.id = "fit", .of_observations = true},
-    TaskKind{.id = "thermal", .told = true},
-    TaskKind{.id = "log-compensation", .told = true},
-    TaskKind{.id = "discrepancy", .of_observations = true},
-    TaskKind{.id = "simulation", .of_observations = true, .told = true, .starts_programs = true},
-    TaskKind{.id = "compensation", .of_observations = true, .told = true},
-    TaskKind{.id = "verify", .of_observations = true, .told = true},
-    TaskKind{.id = "report"},
-};
-
-bool isReport(const std::string& task) {
-  return task == "report";
-}
 
 /// What differs between two lists of exclusions, in words.
 std::string exclusionsChanged(const nlohmann::json& then, const nlohmann::json& now) {
@@ -49,48 +28,49 @@ std::string exclusionsChanged(const nlohmann::json& then, const nlohmann::json& 
   return fmt::format("{} more, {} taken back", countOf(out, "exclusion"), back);
 }
 
+/// Inputs and options by the names that the session keeps them under. Results of tasks say it themselves.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 9> words{
+    {{"files", "files of the campaign"},
+     {"machine", "the machine"},
+     {"clocks", "offsets of the clocks"},
+     {"after", "the second campaign"},
+     {"discrepancy", "the effects in the model"},
+     {"notes", "the notes"},
+     {"plan", "the measurement plan"},
+     {"reasons", "reasons of exclusions"},
+     {"simulator", "the simulator"}}};
+
+std::string_view wordsFor(std::string_view name) {
+  const auto* const found = std::find_if(words.begin(), words.end(), [&](const auto& w) { return w.first == name; });
+  return found == words.end() ? std::string_view() : found->second;
+}
+
 std::string described(const std::string& input, const nlohmann::json& then, const nlohmann::json& now) {
   if (input == "exclusions" && then.is_array()) return exclusionsChanged(then, now);
-  if (input == "files") return "files of the campaign";
-  if (input == "machine") return "the machine";
-  if (input == "clocks") return "offsets of the clocks";
   if (input == "program") return then.is_string() ? "the version of the program" : "what it was made from is not known";
-  if (input == "after") return "the second campaign";
-  if (input == "evaluate") return "the evaluation";
-  if (input == "fit") return "the fitted model";
-  if (input == "thermal") return "the model over time";
-  if (input == "discrepancy") return "the effects in the model";
-  if (input == "notes") return "the notes";
-  if (input == "plan") return "the measurement plan";
-  if (input == "reasons") return "reasons of exclusions";
-  if (input == "simulator") return "the simulator";
-  return input;
-}
-
-bool isInstrumentCheck(const std::string& task) {
-  return task == "check-jogs" || task == "check-repeatability";
-}
-
-/// A search with a simulator that wrote a new version of it counts as one with the version while that is at hand.
-Provenance asOfVersion(Provenance then, const ResultOrigin& now) {
-  const std::string version = then.options.value("version", "");
-  then.options["version"] = "";
-  if (version.empty() || version != now.options.value("simulator", "")) return then;
-  then.options["simulator"] = version;
-  then.inputs["simulator"] = then.options.value("written", "");
-  return then;
+  if (const TaskKind* task = taskKind(input); task != nullptr && !task->result.empty())
+    return std::string(task->result);
+  const std::string_view text = wordsFor(input);
+  return std::string(text.empty() ? input : text);
 }
 
 }  // namespace
 
-std::span<const TaskKind> taskKinds() noexcept {
-  return kinds;
+const TaskKind* taskKind(std::string_view id) noexcept {
+  const std::span<const TaskKind> all = taskKinds();
+  const auto found = std::find_if(all.begin(), all.end(), [&](const TaskKind& kind) { return kind.id == id; });
+  return found == all.end() ? nullptr : &*found;
 }
 
-const TaskKind* taskKind(std::string_view id) noexcept {
-  const auto* const found =
-      std::find_if(kinds.begin(), kinds.end(), [&](const TaskKind& kind) { return kind.id == id; });
-  return found == kinds.end() ? nullptr : found;
+const TaskKind& taskKind(std::string_view id, const CampaignFacts& facts) {
+  const TaskKind* last = nullptr;
+  for (const TaskKind& kind : taskKinds()) {
+    if (kind.id != id) continue;
+    last = &kind;
+    if (kind.is_for == nullptr || kind.is_for(facts)) break;
+  }
+  if (last == nullptr) throw InputError(fmt::format("{} is no task of a campaign.", id));
+  return *last;
 }
 
 std::string_view toString(TaskState state) noexcept {
@@ -149,127 +129,57 @@ bool TaskGraph::overTime() const {
 
 std::vector<std::string> TaskGraph::tasks() const {
   std::vector<std::string> all;
-  if (facts_.captures()) all.insert(all.end(), {"check", "evaluate"});
-  const bool has_simulator = !SimulationOptions::of(session_, campaign_, *data_).simulator.empty();
-  if (facts_.log_only) {
-    all.insert(all.end(), {"thermal", "log-compensation", "report"});
-    return all;
-  }
-  all.insert(all.end(), {"check-jogs", "check-repeatability", "fit"});
-  if (facts_.log) all.emplace_back("thermal");
-  if (facts_.simulation) all.emplace_back("discrepancy");
-  if (has_simulator) all.emplace_back("simulation");
-  all.insert(all.end(), {"compensation", "verify", "report"});
+  for (const TaskKind& one : taskKinds())
+    if ((all.empty() || all.back() != one.id) && one.belongs(*this)) all.emplace_back(one.id);
   return all;
 }
 
-nlohmann::json TaskGraph::options(const std::string& task) const {
-  const auto kept = [&](const char* key) {
-    return session_.setting(campaignKey(key, campaign_)).value_or(nlohmann::json());
-  };
-  const auto object = [&](const char* key) {
-    nlohmann::json value = kept(key);
-    return value.is_object() ? value : nlohmann::json::object();
-  };
-  const nlohmann::json fit =
-      campaignSetting(session_, campaign_, option_keys::nine_parameters, nlohmann::json::object());
-  if (task == "fit") {
-    if (facts_.touches) return {{"model", "cycles"}, {"options", object(option_keys::cycles)}};
-    if (facts_.scans) {
-      const nlohmann::json model = kept(option_keys::scan_model);
-      return {{"model", "axis-errors"}, {"scan_model", model.is_string() ? model : nlohmann::json("")}};
-    }
-    return {{"model", "nine-parameter"}, {"options", fit.is_object() ? fit : nlohmann::json::object()}};
-  }
-  if (task == "thermal") return {{"model", "thermal"}, {"options", object(option_keys::thermal)}};
-  const nlohmann::json effects = EffectOptions::of(session_, campaign_).json();
-  if (task == "discrepancy") return {{"discrepancy", effects}};
-  if (task == "simulation") return SimulationOptions::of(session_, campaign_, *data_).json();
-  if (isInstrumentCheck(task)) return {{"part", allowedPart(task)}};
-  if (task == "compensation") {
-    const CompensationRequest request = compensationRequest(session_, campaign_, latest_("fit") != nullptr);
-    return {{"options", object(option_keys::compensation)},
-            {"source", std::string(toString(request.source))},
-            {"fit", fit},
-            {"discrepancy", effects}};
-  }
-  if (task == "verify") return {{"options", VerifyOptions::of(session_, campaign_).json()}};
-  if (isReport(task)) {
-    const ReportTaskOptions report = ReportTaskOptions::of(session_, campaign_);
-    nlohmann::json warm = kept(option_keys::warm_statement);
-    return {{"operator", report.operator_name},
-            {"tells_discrepancy", report.tells_discrepancy},
-            {"notes", report.notes.empty() ? nlohmann::json() : nlohmann::json(report.notes)},
-            {"discrepancy", effects},
-            {"fit", fit},
-            {"warm", warm.is_object() && warm.contains("by") ? warm : nlohmann::json()},
-            {"simulator", kept(option_keys::simulator)}};
-  }
-  return nlohmann::json::object();
+const TaskKind* TaskGraph::kind(const std::string& task) const {
+  return taskKind(task) == nullptr ? nullptr : &taskKind(task, facts_);
 }
 
 std::vector<std::string> TaskGraph::madeFrom(const std::string& task) const {
-  if (task == "check" || task == "evaluate") return {};
-  if (task == "log-compensation") return {"thermal"};
-  // Captures are evaluated on the way: what comes from a campaign's own observations has no other input.
-  if (facts_.own_observations || !facts_.captures()) return {};
-  return {"evaluate"};
+  const TaskKind* one = kind(task);
+  return one == nullptr || one->made_from == nullptr ? std::vector<std::string>() : one->made_from(*this);
 }
 
 nlohmann::json TaskGraph::inputsOfResults(const std::string& task) const {
   nlohmann::json inputs = nlohmann::json::object();
-  const auto add = [&](const std::string& kind) {
-    const StoredResult* result = latest_(kind);
-    inputs[kind] = result == nullptr ? std::string() : result->provenance.inputs_fingerprint;
-  };
-  for (const std::string& kind : madeFrom(task)) add(kind);
-  if (isReport(task)) {
-    // The report has to be written again when there are others.
-    for (const TaskKind& kind : kinds)
-      if (kind.told) add(std::string(kind.id));
-    // What is printed word by word, beside the notes (an option).
-    Fingerprint reasons;
-    for (const Exclusion& exclusion : session_.exclusions(campaign_)) reasons.add(exclusion.item).add(exclusion.reason);
-    const auto plan = session_.setting(campaignKey(option_keys::plan, campaign_)).value_or(nlohmann::json());
-    inputs["reasons"] = reasons.text();
-    inputs["plan"] = Fingerprint().add(plan.dump()).text();
-  }
-  if (task == "simulation") {
-    const std::string name = SimulationOptions::of(session_, campaign_, *data_).simulator;
-    inputs["simulator"] = name.empty() ? std::string() : simulatorFingerprint(simulatorFile(session_, name));
-  }
-  if (task == "verify") {
-    const std::string folder = VerifyOptions::of(session_, campaign_).after;
-    inputs["after"] = "";
-    for (const CampaignRecord& record : session_.campaigns())
-      if (record.id != campaign_ && record.folder == folder) inputs["after"] = record.fingerprint;
-  }
+  for (const std::string& kind : madeFrom(task)) inputs[kind] = fingerprintOf(kind);
+  if (const TaskKind* one = kind(task); one != nullptr && one->add_inputs != nullptr) one->add_inputs(*this, inputs);
   return inputs;
 }
 
+std::string TaskGraph::fingerprintOf(const std::string& kind) const {
+  const StoredResult* result = latest_(kind);
+  return result == nullptr ? std::string() : result->provenance.inputs_fingerprint;
+}
+
 ResultOrigin TaskGraph::origin(const std::string& task, const nlohmann::json& more) const {
-  nlohmann::json all = options(task);
+  const TaskKind* one = kind(task);
+  nlohmann::json all = one == nullptr ? nlohmann::json::object() : one->options(*this);
   if (more.is_object()) all.update(more);
   return session_.originOf(campaign_, task, all, inputsOfResults(task));
 }
 
 std::vector<std::string> TaskGraph::changes(const StoredResult& result) const {
-  const ResultOrigin now = origin(result.kind);
-  const std::optional<Provenance> of_version =
-      result.kind == "simulation" ? std::optional(asOfVersion(result.provenance, now)) : std::nullopt;
-  const Provenance& then = of_version ? *of_version : result.provenance;
   if (result.provenance.inputs.empty()) return {"what it was made from is not known to this version"};
+  const ResultOrigin now = origin(result.kind);
+  const TaskKind* one = kind(result.kind);
+  Provenance then = result.provenance;
+  if (one != nullptr && one->as_now != nullptr) one->as_now(then, now);
+  // As they would be written now: earlier versions wrote less. Options beyond those belong to whoever added them.
+  then.options = one == nullptr ? now.options : one->options_of(then.options);
   std::vector<std::string> changed;
   for (const auto& [name, value] : now.inputs.items()) {
     const nlohmann::json before = then.inputs.value(name, nlohmann::json());
     if (before != value) changed.push_back(described(name, before, value));
   }
-  // Options beyond those that the session keeps belong to whoever added them.
-  for (const auto& [name, value] : now.options.items()) {
-    if (then.options.value(name, nlohmann::json()) == value) continue;
-    const bool named = name == "discrepancy" || name == "notes" || name == "simulator";
-    changed.push_back(named ? described(name, {}, {}) : "the options");
-  }
+  for (const nlohmann::json& differing : {now.options, then.options})
+    for (const auto& [name, unused] : differing.items()) {
+      if (then.options.value(name, nlohmann::json()) == now.options.value(name, nlohmann::json())) continue;
+      changed.emplace_back(wordsFor(name).empty() ? "the options" : wordsFor(name));
+    }
   for (const std::string& kind : madeFrom(result.kind)) {
     const StoredResult* from = latest_(kind);
     if (from != nullptr && !changes(*from).empty()) changed.push_back(described(kind, {}, {}) + " is outdated");
@@ -285,23 +195,11 @@ bool TaskGraph::holds(const StoredResult& result) const {
 }
 
 std::string TaskGraph::blockedBecause(const std::string& task) const {
-  if (task == "check" || task == "evaluate")
-    return facts_.captures() ? std::string() : "There are no captures to evaluate yet.";
-  if (task == "thermal") return facts_.log ? std::string() : "The campaign has no log.";
-  if (task == "log-compensation")
-    return latest_("thermal") != nullptr ? std::string() : "Identify a model over time first (Model).";
-  if (task == "discrepancy" && !facts_.simulation) return "This campaign comes without a simulation to compare with.";
-  if (task == "simulation" && SimulationOptions::of(session_, campaign_, *data_).simulator.empty())
-    return "There is no simulator to search with: campaign.json names none and none was chosen (Discrepancy).";
-  if (isReport(task)) return canReport(*data_, hasObservations()) ? std::string() : "There is nothing to report yet.";
-  if (task == "verify" && facts_.log_only)
-    return "A log alone has no plan that could be measured again. Log the machine with the compensation on and open "
-           "that log as a campaign of its own.";
-  if (task == "compensation" && latest_("fit") == nullptr && EffectOptions::of(session_, campaign_).added.empty())
-    return facts_.simulation ? "Fit a model or add a missing effect to the simulation first." : "Fit a model first.";
-  if (const TaskKind* kind = taskKind(task); kind != nullptr && kind->of_observations)
-    return hasObservations() ? std::string() : "Evaluate the captures first (Calibrate).";
-  return {};
+  const TaskKind* one = kind(task);
+  if (one == nullptr) return {};
+  std::string why = one->blocked == nullptr ? std::string() : one->blocked(*this);
+  if (why.empty() && one->of_observations && !hasObservations()) why = "Evaluate the captures first (Calibrate).";
+  return why;
 }
 
 TaskStatus TaskGraph::status(const std::string& task) const {
@@ -330,8 +228,8 @@ TaskStatus TaskGraph::status(const std::string& task) const {
 
 std::vector<std::string> TaskGraph::runFirst(const std::string& task) const {
   std::vector<std::string> first = madeFrom(task);
-  if (task == "compensation" && latest_("fit") == nullptr && EffectOptions::of(session_, campaign_).added.empty())
-    first.emplace_back("fit");
+  if (const TaskKind* one = kind(task); one != nullptr && one->after != nullptr)
+    for (std::string& before : one->after(*this)) first.push_back(std::move(before));
   return first;
 }
 

@@ -25,23 +25,56 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/job_context.h"
 #include "core/machine/campaign.h"
 #include "core/session/session.h"
 #include "core/tasks/campaign_facts.h"
 
 namespace spindrift {
 
-/// What holds of a task whatever campaign it is run on.
+class TaskGraph;
+struct TaskInputs;
+struct TaskResult;
+/// What is asked of the work: the payload to be stored, the detail to be shown, or both.
+enum class TaskOutput { Payload, Detail, Both };
+/// Work that is ready to be run, by any thread. Throws InputError and Cancelled.
+using TaskWork = std::function<TaskResult(JobContext&, TaskOutput)>;
+
+/// A task as it is declared (task_kinds.cpp): all that graph, list of steps, window and command line ask of it. Tasks
+/// of one id are one task to the user whose work, options and result differ by what the campaign consists of.
 struct TaskKind {
   std::string_view id;
+  std::string_view title;        ///< while it runs: "Fitting all cycles"
+  std::string_view result;       ///< what has changed when its result has: "the fitted model"
   bool of_observations = false;  ///< works on observations: captures have to be evaluated first
   bool told = false;             ///< a report shows its result as it is, and says whether it still holds
   bool starts_programs = false;  ///< runs programs that a file names: only when somebody asks for this task itself
+  /// Of tasks of one id the first whose answer is true, else the last.
+  bool (*is_for)(const CampaignFacts&) = nullptr;
+  /// Whether the campaign has this task.
+  bool (*belongs)(const TaskGraph&) = nullptr;
+  /// Why it cannot be run, beside missing observations; empty: it can. Null: nothing else keeps it.
+  std::string (*blocked)(const TaskGraph&) = nullptr;
+  /// Results of other tasks that are inputs of this one; null: none.
+  std::vector<std::string> (*made_from)(const TaskGraph&) = nullptr;
+  /// What has to be there before without being an input; null: nothing.
+  std::vector<std::string> (*after)(const TaskGraph&) = nullptr;
+  /// Inputs beside those of every task and the results of others; null: none.
+  void (*add_inputs)(const TaskGraph&, nlohmann::json& inputs) = nullptr;
+  /// Takes a result for what it counts as now, before it is compared; null: for what it is.
+  void (*as_now)(Provenance& then, const ResultOrigin& now) = nullptr;
+  // From the types of its options and result.
+  /// Options as the session keeps them for the campaign; and those of a stored result, as they would be written now.
+  nlohmann::json (*options)(const TaskGraph&) = nullptr;
+  nlohmann::json (*options_of)(const nlohmann::json& stored) = nullptr;
+  TaskWork (*prepare)(const TaskGraph&, const TaskInputs&) = nullptr;
 };
-/// All tasks that there are, each after those it is made from.
+/// All tasks that there are, each after those it is made from; those of one id follow each other.
 [[nodiscard]] std::span<const TaskKind> taskKinds() noexcept;
-/// Null: there is no such task.
+/// The first of this id. Null: there is no such task.
 [[nodiscard]] const TaskKind* taskKind(std::string_view id) noexcept;
+/// The one for this campaign. Throws InputError: there is no such task.
+[[nodiscard]] const TaskKind& taskKind(std::string_view id, const CampaignFacts& facts);
 
 enum class TaskState {
   NotRun,
@@ -112,14 +145,17 @@ class TaskGraph {
   [[nodiscard]] const Session& session() const { return session_; }
   [[nodiscard]] std::int64_t campaign() const { return campaign_; }
   [[nodiscard]] const Campaign& data() const { return *data_; }
+  /// Of what the latest result of a kind was made from; empty: there is none.
+  [[nodiscard]] std::string fingerprintOf(const std::string& kind) const;
   [[nodiscard]] bool hasObservations() const;
   /// Whether the model of this campaign is one over time in place of that of the instrument.
   [[nodiscard]] bool overTime() const;
 
  private:
-  [[nodiscard]] nlohmann::json options(const std::string& task) const;
+  /// Null: no such task.
+  [[nodiscard]] const TaskKind* kind(const std::string& task) const;
   [[nodiscard]] std::vector<std::string> madeFrom(const std::string& task) const;
-  /// What has to be there before: what it is made from, and the fit that a compensation is for.
+  /// What has to be there before: what it is made from, and what it comes after.
   [[nodiscard]] std::vector<std::string> runFirst(const std::string& task) const;
   /// Empty `why`: as `needed`.
   [[nodiscard]] std::vector<std::string> needed(const std::string& task, std::string& why) const;

@@ -29,27 +29,20 @@ nlohmann::json campaignSetting(const Session& session, std::int64_t campaign, co
 
 namespace {
 
-nlohmann::json objectOf(const Session& session, std::int64_t campaign, const std::string& key) {
-  nlohmann::json value = session.setting(campaignKey(key, campaign)).value_or(nlohmann::json::object());
-  return value.is_object() ? value : nlohmann::json::object();
-}
-
 std::filesystem::path whole(const std::filesystem::path& path) {
   return std::filesystem::absolute(path).lexically_normal();
 }
 
 }  // namespace
 
-EffectOptions EffectOptions::of(const Session& session, std::int64_t campaign) {
-  const nlohmann::json json = objectOf(session, campaign, option_keys::discrepancy);
-  return {json.value("added", std::vector<std::string>()), json.value("rejected", std::vector<std::string>()),
-          json.value("effects", nlohmann::json())};
+template <>
+nlohmann::json optionsJson(const ScanModelChoice& options) {
+  return options.model;
 }
 
-nlohmann::json EffectOptions::json() const {
-  nlohmann::json out{{"added", added}, {"rejected", rejected}};
-  if (effects.is_object()) out["effects"] = effects;
-  return out;
+template <>
+ScanModelChoice optionsFrom<ScanModelChoice>(const nlohmann::json& json) {
+  return {json.is_string() ? json.get<std::string>() : std::string()};
 }
 
 std::filesystem::path EffectOptions::file(const Session& session, std::int64_t campaign) {
@@ -78,21 +71,16 @@ std::shared_ptr<const Campaign> EffectOptions::applied(std::shared_ptr<const Cam
 }
 
 SimulationOptions SimulationOptions::of(const Session& session, std::int64_t campaign, const Campaign& data) {
+  const auto effects = chosen<EffectOptions>(session, campaign);
   SimulationOptions options;
-  options.effects = EffectOptions::of(session, campaign);
-  const auto chosen = session.setting(campaignKey(option_keys::simulator, campaign));
-  if (chosen && chosen->is_string()) {
-    options.simulator = chosen->get<std::string>();
+  options.choice = {effects.rejected, effects.effects};
+  const auto kept = session.setting(campaignKey(option_keys::simulator, campaign));
+  if (kept && kept->is_string()) {
+    options.simulator = kept->get<std::string>();
   } else if (!data.simulator.empty()) {
     options.simulator = simulatorName(session, data.path(data.simulator.string()));
   }
   return options;
-}
-
-nlohmann::json SimulationOptions::json() const {
-  nlohmann::json choice = effects.json();
-  choice.erase("added");
-  return {{"simulator", simulator}, {"version", ""}, {"choice", std::move(choice)}};
 }
 
 std::string simulatorName(const Session& session, const std::filesystem::path& file) {
@@ -111,80 +99,69 @@ std::string simulatorFingerprint(const std::filesystem::path& file) try {
   return {};
 }
 
-double allowedPart(const std::string& check) {
-  return check == "check-repeatability" ? 0.5 : 1.0;
-}
-
-NineParameterOptions nineParameterOptions(const nlohmann::json& json) {
+NineParameterOptions NineParameterChoice::options() const {
   NineParameterOptions options;
-  if (!json.is_object()) return options;
-  options.state = json.value("state", std::string());
-  options.points = json.value("points", std::vector<std::string>());
-  options.robust = static_cast<RobustLoss>(json.value("robust", 0));
+  options.state = state;
+  options.points = points;
+  options.robust = robust;
   return options;
 }
 
-HoleCycleOptions cycleOptions(const nlohmann::json& json) {
+HoleCycleOptions CycleChoice::options() const {
   HoleCycleOptions options;
-  if (!json.is_object()) return options;
-  options.second_axis = json.value("second_axis", false);
-  if (options.second_axis) {
+  options.second_axis = second_axis;
+  if (second_axis) {
     StableLength length;
-    length.growth_um_per_m = json.value("growth_um_per_m", 0.0);
-    length.uncertainty_um_per_m = json.value("trust_um_per_m", 0.1);
+    length.growth_um_per_m = growth_um_per_m;
+    length.uncertainty_um_per_m = trust_um_per_m;
     options.stable_length = length;
   }
   return options;
 }
 
-IdentifyRequest identifyRequest(const nlohmann::json& json, const TimeSeries& series) {
-  IdentifyRequest r;
+IdentifyRequest ThermalChoice::request(const TimeSeries& series) const {
   const std::vector<std::string> outputs = outputSignals(series);
+  IdentifyRequest r;
   r.log = series.file;
-  r.output = json.value("output", std::string());
+  r.output = output;
   if (std::find(outputs.begin(), outputs.end(), r.output) == outputs.end() && !outputs.empty())
     r.output = outputs.front();
   const double first = series.time_s.front();
   const double last = series.time_s.back();
   const double middle = std::round(0.5 * (first + last));
-  const auto range = [&](const char* key, double from, double to) {
-    const nlohmann::json value = json.value(key, nlohmann::json());
-    if (value.is_array() && value.size() == 2) return TimeRange{value[0].get<double>(), value[1].get<double>()};
-    return TimeRange{from, to};
-  };
-  r.train = range("train", first, middle);
-  r.test = range("test", middle, last);
-  r.method = json.value("method", std::string("response"));
+  r.train = train.value_or(TimeRange{first, middle});
+  r.test = test.value_or(TimeRange{middle, last});
+  r.method = method;
   // Cycles are too rare for the methods that need a value at every row.
   if (const Signal* signal = series.find(r.output); signal != nullptr && isSparse(*signal)) r.method = "response";
-  for (const auto& name : json.value("inputs", nlohmann::json::array())) {
-    const auto text = name.get<std::string>();
-    if (series.find(text) != nullptr && text != r.output) r.inputs.push_back(text);
-  }
+  for (const std::string& name : inputs)
+    if (series.find(name) != nullptr && name != r.output) r.inputs.push_back(name);
   return r;
 }
 
-CompensationRequest compensationRequest(const Session& session, std::int64_t campaign, bool fitted) {
-  const nlohmann::json json = objectOf(session, campaign, option_keys::compensation);
-  const EffectOptions effects = EffectOptions::of(session, campaign);
+CompensationTaskOptions CompensationTaskOptions::of(const Session& session, std::int64_t campaign, bool fitted) {
+  CompensationTaskOptions options{chosen<CompensationChoice>(session, campaign),
+                                  {},
+                                  chosen<NineParameterChoice>(session, campaign),
+                                  chosen<EffectOptions>(session, campaign)};
   const auto possible = [&](CompensationSource source) {
-    return source == CompensationSource::CompletedModel ? !effects.added.empty() : fitted;
+    return source == CompensationSource::CompletedModel ? !options.effects.added.empty() : fitted;
   };
-  CompensationRequest request;
   const CompensationSource first = possible(CompensationSource::CompletedModel) ? CompensationSource::CompletedModel
                                                                                 : CompensationSource::NineParameters;
-  request.source = static_cast<CompensationSource>(json.value("source", static_cast<int>(first)));
-  if (!possible(request.source)) request.source = first;
-  const NineParameterOptions fit =
-      nineParameterOptions(campaignSetting(session, campaign, option_keys::nine_parameters, nlohmann::json::object()));
-  request.state = json.value("state", std::string());
+  options.source = options.choice.source.value_or(first);
+  if (!possible(options.source)) options.source = first;
+  return options;
+}
+
+CompensationRequest CompensationTaskOptions::request() const {
+  CompensationRequest request;
+  request.source = source;
+  request.state = choice.state;
   // What the user chose for the fit; else the warmest.
-  if (request.state.empty() && request.source != CompensationSource::CompletedModel) request.state = fit.state;
-  request.positions = json.value("positions", 11);
-  if (json.contains("reference_mm")) {
-    const auto at = json["reference_mm"].get<std::vector<double>>();
-    if (at.size() == 3) request.reference_mm = Eigen::Vector3d(at[0], at[1], at[2]);
-  }
+  if (request.state.empty() && source != CompensationSource::CompletedModel) request.state = fit.state;
+  request.positions = choice.positions;
+  request.reference_mm = choice.reference_mm;
   request.fit.points = fit.points;
   request.fit.robust = fit.robust;
   request.added = effects.added;
@@ -192,32 +169,24 @@ CompensationRequest compensationRequest(const Session& session, std::int64_t cam
   return request;
 }
 
-VerifyOptions VerifyOptions::of(const Session& session, std::int64_t campaign) {
-  const nlohmann::json json = objectOf(session, campaign, option_keys::verify);
-  VerifyOptions options;
-  options.request.goal_um = json.value("goal_um", options.request.goal_um);
-  options.request.goal_urad = json.value("goal_urad", options.request.goal_urad);
-  options.request.criterion = json.value("criterion", "") == "rms" ? VerifyCriterion::Rms : VerifyCriterion::Largest;
-  options.after = json.value("after", std::string());
-  return options;
-}
-
-nlohmann::json VerifyOptions::json() const {
-  return {{"goal_um", request.goal_um},
-          {"goal_urad", request.goal_urad},
-          {"criterion", request.criterion == VerifyCriterion::Rms ? "rms" : "largest"},
-          {"after", after}};
-}
-
 ReportTaskOptions ReportTaskOptions::of(const Session& session, std::int64_t campaign) {
   ReportTaskOptions options;
   const nlohmann::json name = campaignSetting(session, campaign, option_keys::operator_name, nullptr);
   if (name.is_string()) options.operator_name = name.get<std::string>();
-  options.tells_discrepancy = objectOf(session, campaign, option_keys::report).value("tells_discrepancy", true);
+  options.tells_discrepancy = chosen<ReportChoice>(session, campaign).tells_discrepancy;
   for (const Note& note : session.notes(campaign)) {
     options.notes.push_back(note.created_utc + "  " + note.step + (note.item.empty() ? "" : ", " + note.item) + ": " +
                             note.text);
   }
+  options.effects = chosen<EffectOptions>(session, campaign);
+  options.fit = chosen<NineParameterChoice>(session, campaign);
+  const auto kept = [&](const char* key) {
+    return session.setting(campaignKey(key, campaign)).value_or(nlohmann::json());
+  };
+  if (nlohmann::json warm = kept(option_keys::warm_statement); warm.is_object() && warm.contains("by"))
+    options.warm = std::move(warm);
+  if (const nlohmann::json simulator = kept(option_keys::simulator); simulator.is_string())
+    options.simulator = simulator.get<std::string>();
   return options;
 }
 

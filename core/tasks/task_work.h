@@ -4,12 +4,12 @@
 // one.
 #pragma once
 
-#include <any>
 #include <functional>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "core/machine/campaign.h"
@@ -19,12 +19,18 @@
 #include "core/probing/evaluate_touches.h"
 #include "core/probing/probe_health.h"
 #include "core/probing/touch_verdict.h"
+#include "core/scanning/scan_check.h"
 #include "core/scanning/scan_evaluation.h"
 #include "core/tasks/campaign_state.h"
+#include "core/tasks/report_task.h"
 #include "core/tasks/task_graph.h"
 #include "core/tasks/task_options.h"
+#include "core/workflows/capture_check.h"
 #include "core/workflows/compensator_run.h"
+#include "core/workflows/discrepancy_story.h"
 #include "core/workflows/discrepancy_workflow.h"
+#include "core/workflows/instrument_checks.h"
+#include "core/workflows/nine_parameter_maps.h"
 
 namespace spindrift {
 
@@ -40,32 +46,28 @@ struct TaskInputs {
   [[nodiscard]] static TaskInputs of(const Session& session, const CampaignState& state);
 };
 
-/// What a task has given: the payload of its result, and what is shown beside it and not stored. The detail of
-///   check             TouchEvaluation (touches)
-///   evaluate          EvaluationDetail
-///   fit               TouchEvaluation (touches), ScanEvaluation (scans), NineParameterResult
-///   thermal           IdentifyResult
-///   compensation      CompensationPlan
-///   log-compensation  LogCompensation
-///   verify            VerifyResult
-///   simulation        DiscrepancyRun
-struct TaskResult {
-  nlohmann::json payload;
-  std::any detail;  ///< a std::shared_ptr<const T>
-  /// Null if the detail is another, or there is none.
-  template <class T>
-  [[nodiscard]] std::shared_ptr<const T> as() const {
-    const auto* found = std::any_cast<std::shared_ptr<const T>>(&detail);
-    return found == nullptr ? nullptr : *found;
-  }
-};
-
 /// Of touches and of scans, where the campaign has them.
 struct EvaluationDetail {
   std::shared_ptr<const TouchEvaluation> touches;
   std::vector<StylusHealth> health;
   RepeatabilityStudy repeatability;
-  std::shared_ptr<const ScanEvaluation> scans;  ///< under the scan model of machine.json
+  std::shared_ptr<const ScanEvaluation> scans;          ///< under the scan model of machine.json
+  std::shared_ptr<const CampaignEvaluation> evaluated;  ///< what is stored; null where only the rest was asked for
+};
+
+struct CheckedCaptures {
+  std::vector<CheckedCapture> captures;
+};
+
+struct ScanChecks {
+  std::vector<ScanCheck> scans;
+};
+
+struct AxisErrorResult {
+  std::shared_ptr<const ScanEvaluation> scans;
+  nlohmann::json details;   ///< what is stored, with
+  bool good_enough = true;  ///< false: none of the errors is known, for
+  std::string why_not;
 };
 
 struct NineParameterResult {
@@ -73,6 +75,7 @@ struct NineParameterResult {
   TableOrderChoice order;
   std::optional<NineParameterComparison> compared;  ///< with the points that were not fitted
   std::string not_compared;                         ///< why that failed; empty: it did not
+  std::optional<NineParameterMaps> maps;            ///< only where the detail is asked for
 };
 
 struct LogCompensation {
@@ -80,11 +83,23 @@ struct LogCompensation {
   ThermalModel model;
 };
 
-/// What is asked of the work: the payload to be stored, the detail to be shown, or both.
-enum class TaskOutput { Payload, Detail, Both };
-
-/// Work that is ready to be run, by any thread. Throws InputError and Cancelled.
-using TaskWork = std::function<TaskResult(JobContext&, TaskOutput)>;
+/// What a task has given: the payload of its result, and what is shown beside it and not stored, which is of the type
+/// that the task is declared with (task_kinds.cpp).
+struct TaskResult {
+  template <class... Types>
+  using OneOf = std::variant<std::monostate, std::shared_ptr<const Types>...>;
+  nlohmann::json payload;
+  OneOf<CheckedCaptures, TouchEvaluation, ScanChecks, EvaluationDetail, CheckResult, AxisErrorResult,
+        NineParameterResult, IdentifyResult, LogCompensation, DiscrepancyStory, DiscrepancyRun, CompensationPlan,
+        VerifyResult, WrittenReport>
+      detail;
+  /// Null if the detail is another, or there is none.
+  template <class T>
+  [[nodiscard]] std::shared_ptr<const T> as() const {
+    const auto* found = std::get_if<std::shared_ptr<const T>>(&detail);
+    return found == nullptr ? nullptr : *found;
+  }
+};
 
 /// The search with the simulator of a campaign, and what comes of it in the simulation. Copies: any thread.
 struct SimulationTask {

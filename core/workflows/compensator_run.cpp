@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "core/base/error.h"
 #include "core/math/known_values.h"
@@ -54,10 +53,8 @@ CompensatorRun runCompensator(const TimeSeries& series, const ThermalModel& mode
   return run;
 }
 
-TimeRange judgedRange(const nlohmann::json& options_of_result, const TimeSeries& series) {
-  const nlohmann::json options = options_of_result.value("options", nlohmann::json::object());
-  const nlohmann::json test = options.is_object() ? options.value("test", nlohmann::json()) : nlohmann::json();
-  if (test.is_array() && test.size() == 2) return {test[0].get<double>(), test[1].get<double>()};
+TimeRange judgedRange(const std::optional<TimeRange>& chosen, const TimeSeries& series) {
+  if (chosen) return *chosen;
   return {std::round(0.5 * (series.time_s.front() + series.time_s.back())), series.time_s.back()};
 }
 

@@ -3,7 +3,7 @@
 // In the unit of the output (um, urad).
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,7 +27,7 @@ struct CompensatorRun {
 [[nodiscard]] CompensatorRun runCompensator(const TimeSeries& series, const ThermalModel& model, const TimeRange& test,
                                             const JobContext& job);
 
-/// The range on which a stored model was judged, by the options of its result; the second half where none was chosen.
-[[nodiscard]] TimeRange judgedRange(const nlohmann::json& options_of_result, const TimeSeries& series);
+/// The range on which a model was judged: the one that was chosen, else the second half.
+[[nodiscard]] TimeRange judgedRange(const std::optional<TimeRange>& chosen, const TimeSeries& series);
 
 }  // namespace spindrift

@@ -5,10 +5,12 @@
 
 #include <cmath>
 
-#include "core/base/csv.h"
+#include "core/base/csv_rows.h"
 #include "core/base/error.h"
 #include "core/base/inside_folder.h"
 #include "core/base/sha256.h"
+#include "core/base/text.h"
+#include "core/machine/operating_log.h"
 #include "core/workflows/loop_models.h"
 
 namespace spindrift {
@@ -37,6 +39,12 @@ LoopStage stageOf(const JsonNode& node) {
     if (name == toString(each)) return each;
   }
   return LoopStage::None;
+}
+
+const std::vector<double>& signalOf(const OperatingLog& log, const std::string& name) {
+  if (const std::vector<double>* values = log.signal(name)) return *values;
+  throw InputError({log.file(), "header"},
+                   fmt::format("column \"{}\" is missing; found: {}.", name, joinedList(log.names())));
 }
 
 /// {"EX": 1.2} as JSON of a result has it; NaN where nothing stands.
@@ -212,11 +220,12 @@ void LoopModels::restore(const JsonNode& state, const std::filesystem::path& log
     trusted_[axis] = {trust[axis].at("identified").boolean(), trust[axis].at("cycles").integer(),
                       trust[axis].at("judged").integer(), trust[axis].at("simulation_um2").number(),
                       trust[axis].at("model_um2").number()};
-  const CsvTable rows = CsvTable::read(log);
-  if (rows.rowCount() > 0) {
-    times_ = rows.numbers("time_s");
-    columns_[0] = rows.numbers("spindle_rpm");
-    for (std::size_t c = 0; c < plan_.temperatures.size(); ++c) columns_[c + 1] = rows.numbers(plan_.temperatures[c]);
+  if (CsvRows(log).next()) {
+    const OperatingLog rows = OperatingLog::read(log);
+    times_ = rows.time_s();
+    columns_[0] = signalOf(rows, "spindle_rpm");
+    for (std::size_t c = 0; c < plan_.temperatures.size(); ++c)
+      columns_[c + 1] = signalOf(rows, plan_.temperatures[c]);
   }
   for (const JsonNode& each : state.at("identified").items()) {
     ThermalModel model = ThermalModel::parse(each.at("model"));

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <functional>
 #include <set>
 
 #include "core/base/atomic_file.h"
@@ -40,9 +41,7 @@ ResidualDiagnosis diagnose(const TimeSeries& series, const IdentifyResult& resul
   out.period_s = std::max(series.medianPeriod_s(), span / 1000.0);
   if (result.model.period_s > 0.0) out.period_s = result.model.period_s;
   const BinnedSeries bins = binSeries(series.time_s, out.period_s, train.from_s, train.to_s);
-  std::vector<double> difference(series.time_s.size());
-  for (std::size_t r = 0; r < difference.size(); ++r) difference[r] = result.measured[r] - result.predicted[r];
-  std::vector<double> e = bridged(bins.time_s, bins.mean(difference), false);
+  std::vector<double> e = bridged(bins.time_s, bins.mean(result.left), false);
   const double centre = mean(e);
   for (double& v : e) v -= centre;
   const auto n = e.size();
@@ -225,6 +224,9 @@ IdentifyResult identifyThermalModel(TimeSeries series, const IdentifyRequest& re
   result.time_s = series.time_s;
   result.measured = output.values;
   result.predicted = std::move(prediction.value);
+  result.left.resize(result.measured.size());
+  std::transform(result.measured.begin(), result.measured.end(), result.predicted.begin(), result.left.begin(),
+                 std::minus<>());
   result.sigma = std::move(prediction.sigma);
   result.outside = std::move(prediction.outside);
   result.notes.insert(result.notes.end(), prediction.notes.begin(), prediction.notes.end());

@@ -89,6 +89,7 @@ struct IdentifyResult {
   std::vector<double> time_s;
   std::vector<double> measured;  ///< NaN where missing
   std::vector<double> predicted;
+  std::vector<double> left;   ///< measured minus predicted
   std::vector<double> sigma;  ///< may be empty
   std::vector<char> outside;
   double left_out_rms = 0.0;

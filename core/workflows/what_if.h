@@ -54,7 +54,7 @@ struct WhatIfPlace {
 struct WhatIfArtefact {
   std::string id;
   std::string kind;       ///< "hole_bar", "balls" or "fiducial_plate"
-  std::string pose;       ///< "c = 90 deg", "along X" or empty
+  std::string pose;       ///< "c = 90°", "turned by 90°", "as it lies" or empty
   std::string reference;  ///< the feature that the others are compared with
   /// Deviations relative to that of the reference.
   std::vector<WhatIfPlace> features;

@@ -483,80 +483,8 @@
 <context>
     <name>Tasks</name>
     <message>
-        <source>Checking the captures</source>
-        <translation>Aufnahmen werden geprüft</translation>
-    </message>
-    <message>
-        <source>Checking the touches</source>
-        <translation>Antastungen werden geprüft</translation>
-    </message>
-    <message>
-        <source>Checking the scans</source>
-        <translation>Scans werden geprüft</translation>
-    </message>
-    <message>
-        <source>Evaluating the captures</source>
-        <translation>Aufnahmen werden ausgewertet</translation>
-    </message>
-    <message>
-        <source>Evaluating the touches</source>
-        <translation>Antastungen werden ausgewertet</translation>
-    </message>
-    <message>
-        <source>Evaluating the scans</source>
-        <translation>Scans werden ausgewertet</translation>
-    </message>
-    <message>
-        <source>Fitting all cycles</source>
-        <translation>Alle Zyklen werden angepasst</translation>
-    </message>
-    <message>
-        <source>Finding the six errors</source>
-        <translation>Sechs Abweichungen werden bestimmt</translation>
-    </message>
-    <message>
-        <source>Fitting the nine-parameter model</source>
-        <translation>Das Neun-Parameter-Modell wird angepasst</translation>
-    </message>
-    <message>
-        <source>Identifying the model</source>
-        <translation>Modell wird identifiziert</translation>
-    </message>
-    <message>
-        <source>Running the compensator</source>
-        <translation>Der Kompensator läuft</translation>
-    </message>
-    <message>
-        <source>Searching for what the simulation lacks</source>
-        <translation>Suche nach dem, was in der Simulation fehlt</translation>
-    </message>
-    <message>
-        <source>Calculating the compensation</source>
-        <translation>Kompensation wird berechnet</translation>
-    </message>
-    <message>
-        <source>Comparing before and after</source>
-        <translation>Vorher und nachher werden verglichen</translation>
-    </message>
-    <message>
-        <source>Writing the report</source>
-        <translation>Der Bericht wird geschrieben</translation>
-    </message>
-    <message>
         <source>%1: stopped, because another campaign was chosen. What was finished is stored.</source>
         <translation>%1: angehalten, weil eine andere Kampagne gewählt wurde. Was fertig war, ist gespeichert.</translation>
-    </message>
-    <message>
-        <source>Searching with the simulator</source>
-        <translation>Suche mit dem Simulator</translation>
-    </message>
-    <message>
-        <source>Checking the jogs</source>
-        <translation>Verfahrschritte werden geprüft</translation>
-    </message>
-    <message>
-        <source>Checking the repeatability</source>
-        <translation>Wiederholgenauigkeit wird geprüft</translation>
     </message>
     <message>
         <source>Running what is outdated</source>
@@ -9640,6 +9568,110 @@ endgültig fehlgeschlagen: {}</translation>
         <source>The virtual profiler takes more than a million points per mm; allowed: fewer points in a profile or profiles further apart.</source>
         <translation>Der virtuelle Profilsensor nimmt mehr als eine Million Punkte je mm auf; erlaubt: weniger Punkte im Profil oder größere Profilabstände.</translation>
     </message>
+    <message>
+        <source>Calculating the compensation</source>
+        <translation>Kompensation wird berechnet</translation>
+    </message>
+    <message>
+        <source>Checking the captures</source>
+        <translation>Aufnahmen werden geprüft</translation>
+    </message>
+    <message>
+        <source>Checking the jogs</source>
+        <translation>Verfahrschritte werden geprüft</translation>
+    </message>
+    <message>
+        <source>Checking the repeatability</source>
+        <translation>Wiederholgenauigkeit wird geprüft</translation>
+    </message>
+    <message>
+        <source>Checking the scans</source>
+        <translation>Scans werden geprüft</translation>
+    </message>
+    <message>
+        <source>Checking the touches</source>
+        <translation>Antastungen werden geprüft</translation>
+    </message>
+    <message>
+        <source>Comparing before and after</source>
+        <translation>Vorher und nachher werden verglichen</translation>
+    </message>
+    <message>
+        <source>Evaluating the captures</source>
+        <translation>Aufnahmen werden ausgewertet</translation>
+    </message>
+    <message>
+        <source>Evaluating the scans</source>
+        <translation>Scans werden ausgewertet</translation>
+    </message>
+    <message>
+        <source>Evaluating the touches</source>
+        <translation>Antastungen werden ausgewertet</translation>
+    </message>
+    <message>
+        <source>Finding the six errors</source>
+        <translation>Sechs Abweichungen werden bestimmt</translation>
+    </message>
+    <message>
+        <source>Fitting all cycles</source>
+        <translation>Alle Zyklen werden angepasst</translation>
+    </message>
+    <message>
+        <source>Fitting the nine-parameter model</source>
+        <translation>Das Neun-Parameter-Modell wird angepasst</translation>
+    </message>
+    <message>
+        <source>Identifying the model</source>
+        <translation>Modell wird identifiziert</translation>
+    </message>
+    <message>
+        <source>Running the compensator</source>
+        <translation>Der Kompensator läuft</translation>
+    </message>
+    <message>
+        <source>Searching for what the simulation lacks</source>
+        <translation>Suche nach dem, was in der Simulation fehlt</translation>
+    </message>
+    <message>
+        <source>Searching with the simulator</source>
+        <translation>Suche mit dem Simulator</translation>
+    </message>
+    <message>
+        <source>The captures checked here can be used; those of other instruments are judged when they are evaluated.</source>
+        <translation>Die hier geprüften Aufnahmen sind verwendbar; die der anderen Messgeräte werden bei ihrer Auswertung beurteilt.</translation>
+    </message>
+    <message>
+        <source>The file of the report is gone. Write it again.</source>
+        <translation>Die Datei des Berichts fehlt. Den Bericht neu schreiben.</translation>
+    </message>
+    <message>
+        <source>Writing the report</source>
+        <translation>Der Bericht wird geschrieben</translation>
+    </message>
+    <message>
+        <source>the check of the jogs</source>
+        <translation>die Prüfung der Verfahrschritte</translation>
+    </message>
+    <message>
+        <source>the check of the repeatability</source>
+        <translation>die Prüfung der Wiederholgenauigkeit</translation>
+    </message>
+    <message>
+        <source>the comparison of before and after</source>
+        <translation>der Vergleich von vorher und nachher</translation>
+    </message>
+    <message>
+        <source>the compensation</source>
+        <translation>die Kompensation</translation>
+    </message>
+    <message>
+        <source>the compensation over the log</source>
+        <translation>die Kompensation über das Protokoll</translation>
+    </message>
+    <message>
+        <source>the search with the simulator</source>
+        <translation>die Suche mit dem Simulator</translation>
+    </message>
 </context>
 <context>
     <name>help</name>
@@ -9708,8 +9740,8 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>&lt;b&gt;Nächste Messung:&lt;/b&gt; was zu messen ist, um konkurrierende Erklärungen zu unterscheiden, und wie die Suche entschieden hat.</translation>
     </message>
     <message>
-        <source>&lt;b&gt;Noise:&lt;/b&gt; what was taken as noise: its scale (actual scatter over stated &amp;sigma;), the shift common to all points of a state, tails, the clock of the log, and outlying readings. Each reading can be looked at, excluded and brought back.</source>
-        <translation>&lt;b&gt;Rauschen:&lt;/b&gt; was als Rauschen galt: sein Maßstab (tatsächliche Streuung zu angegebenem &amp;sigma;), die allen Punkten eines Zustands gemeinsame Verschiebung, die Ausläufer der Verteilung, die Uhr des Protokolls und Ausreißer. Jeder Messwert lässt sich ansehen, ausschließen und zurückholen.</translation>
+        <source>&lt;b&gt;Noise:&lt;/b&gt; what was taken as noise: its scale (actual scatter over stated σ), the shift common to all points of a state, tails, the clock of the log, and outlying readings. Each reading can be looked at, excluded and brought back.</source>
+        <translation>&lt;b&gt;Rauschen:&lt;/b&gt; was als Rauschen galt: sein Maßstab (tatsächliche Streuung zu angegebenem σ), die allen Punkten eines Zustands gemeinsame Verschiebung, die Ausläufer der Verteilung, die Uhr des Protokolls und Ausreißer. Jeder Messwert lässt sich ansehen, ausschließen und zurückholen.</translation>
     </message>
     <message>
         <source>&lt;b&gt;Remains:&lt;/b&gt; what is smooth in time and space and neither effect nor noise: its rms in every component, its time history beside what the effects explain, its pattern over the points.</source>
@@ -9748,8 +9780,8 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>&lt;b&gt;Tabelle&lt;/b&gt;</translation>
     </message>
     <message>
-        <source>&lt;i&gt;Live &amp;hellip;&lt;/i&gt; closes the loop at the control: open a plan, press Start, read what will move, and confirm it at the machine. The page says whether the compensation is active, what it adds per axis and how sure that is (one standard uncertainty of the model; no number before a measuring cycle has judged it).</source>
-        <translation>&lt;i&gt;Live &amp;hellip;&lt;/i&gt; schließt den Regelkreis an der Steuerung: einen Plan öffnen, „Starten“ drücken, lesen, was sich bewegen wird, und es an der Maschine bestätigen. Die Seite zeigt, ob die Kompensation aktiv ist, was sie je Achse aufschaltet und wie sicher das ist (eine Standardunsicherheit des Modells; keine Zahl, bevor ein Messzyklus sie geprüft hat).</translation>
+        <source>&lt;i&gt;Live …&lt;/i&gt; closes the loop at the control: open a plan, press Start, read what will move, and confirm it at the machine. The page says whether the compensation is active, what it adds per axis and how sure that is (one standard uncertainty of the model; no number before a measuring cycle has judged it).</source>
+        <translation>&lt;i&gt;Live …&lt;/i&gt; schließt den Regelkreis an der Steuerung: einen Plan öffnen, „Starten“ drücken, lesen, was sich bewegen wird, und es an der Maschine bestätigen. Die Seite zeigt, ob die Kompensation aktiv ist, was sie je Achse aufschaltet und wie sicher das ist (eine Standardunsicherheit des Modells; keine Zahl, bevor ein Messzyklus sie geprüft hat).</translation>
     </message>
     <message>
         <source>&lt;i&gt;Publish this session&lt;/i&gt; puts its campaigns with their newest results into the store. Publishing again adds nothing. Where the store cannot be reached, what is published waits in the session.</source>
@@ -9760,40 +9792,40 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>&lt;i&gt;Anhalten&lt;/i&gt; lässt die Kompensation auf null abklingen. Wenn Spindrift nicht mehr antwortet, lässt die Steuerung sie ebenfalls abklingen oder hält sie: nach Ihrer Wahl. Ein beendeter Regelkreis wird aus seinem Ordner fortgesetzt.</translation>
     </message>
     <message>
-        <source>&lt;i&gt;U = 2 u&amp;nbsp; (expanded uncertainty, about 95 %)&lt;/i&gt;</source>
-        <translation>&lt;i&gt;U = 2 u&amp;nbsp; (erweiterte Messunsicherheit, etwa 95 %)&lt;/i&gt;</translation>
+        <source>&lt;i&gt;U = 2 u&#xa0; (expanded uncertainty, about 95 %)&lt;/i&gt;</source>
+        <translation>&lt;i&gt;U = 2 u&#xa0; (erweiterte Messunsicherheit, etwa 95 %)&lt;/i&gt;</translation>
     </message>
     <message>
-        <source>&lt;i&gt;c = mean centre of the circle that a pattern draws while the spindle turns;&amp;nbsp; &amp;Delta;XY = c(state) &amp;minus; c(first),&amp;nbsp; &amp;Delta;Z from the peak of sharpness over height&lt;/i&gt;</source>
-        <translation>&lt;i&gt;c = mittlerer Mittelpunkt des Kreises, den ein Muster beim Drehen der Spindel beschreibt;&amp;nbsp; &amp;Delta;XY = c(Zustand) &amp;minus; c(erster),&amp;nbsp; &amp;Delta;Z aus dem Maximum der Schärfe über der Höhe&lt;/i&gt;</translation>
+        <source>&lt;i&gt;c = mean centre of the circle that a pattern draws while the spindle turns;&#xa0; ΔXY = c(state) − c(first),&#xa0; ΔZ from the peak of sharpness over height&lt;/i&gt;</source>
+        <translation>&lt;i&gt;c = mittlerer Mittelpunkt des Kreises, den ein Muster beim Drehen der Spindel beschreibt;&#xa0; ΔXY = c(Zustand) − c(erster),&#xa0; ΔZ aus dem Maximum der Schärfe über der Höhe&lt;/i&gt;</translation>
     </message>
     <message>
-        <source>&lt;i&gt;correction = &amp;minus; predicted deviation;&amp;nbsp; expected residual error = sqrt(model uncertainty&amp;sup2; + rms residual&amp;sup2;)&lt;/i&gt;</source>
-        <translation>&lt;i&gt;Korrektur = &amp;minus; vorhergesagte Abweichung;&amp;nbsp; erwartetes Residuum nach der Kompensation = sqrt(Modellunsicherheit&amp;sup2; + rms-Residuum&amp;sup2;)&lt;/i&gt;</translation>
+        <source>&lt;i&gt;correction = − predicted deviation;&#xa0; expected residual error = sqrt(model uncertainty² + rms residual²)&lt;/i&gt;</source>
+        <translation>&lt;i&gt;Korrektur = − vorhergesagte Abweichung;&#xa0; erwartetes Residuum nach der Kompensation = sqrt(Modellunsicherheit² + rms-Residuum²)&lt;/i&gt;</translation>
     </message>
     <message>
-        <source>&lt;i&gt;d(t) = a + b (1 &amp;minus; exp(&amp;minus;t / &amp;tau;)),&amp;nbsp; settled when |b| / &amp;tau; &amp;middot; exp(&amp;minus;t / &amp;tau;) &amp;lt; 1 &amp;micro;m/h&lt;/i&gt;</source>
-        <translation>&lt;i&gt;d(t) = a + b (1 &amp;minus; exp(&amp;minus;t / &amp;tau;)),&amp;nbsp; eingelaufen, wenn |b| / &amp;tau; &amp;middot; exp(&amp;minus;t / &amp;tau;) &amp;lt; 1 &amp;micro;m/h&lt;/i&gt;</translation>
+        <source>&lt;i&gt;d(t) = a + b (1 − exp(−t / τ)),&#xa0; settled when |b| / τ · exp(−t / τ) &amp;lt; 1 µm/h&lt;/i&gt;</source>
+        <translation>&lt;i&gt;d(t) = a + b (1 − exp(−t / τ)),&#xa0; eingelaufen, wenn |b| / τ · exp(−t / τ) &amp;lt; 1 µm/h&lt;/i&gt;</translation>
     </message>
     <message>
-        <source>&lt;i&gt;deviation = actual &amp;minus; commanded position of the tool relative to the table&lt;/i&gt;</source>
-        <translation>&lt;i&gt;Abweichung = Ist- &amp;minus; Sollposition des Werkzeugs relativ zum Tisch&lt;/i&gt;</translation>
+        <source>&lt;i&gt;deviation = actual − commanded position of the tool relative to the table&lt;/i&gt;</source>
+        <translation>&lt;i&gt;Abweichung = Ist- − Sollposition des Werkzeugs relativ zum Tisch&lt;/i&gt;</translation>
     </message>
     <message>
-        <source>&lt;i&gt;difference = pane &amp;minus; pane 1;&amp;nbsp; u(difference)&amp;sup2; = u(pane)&amp;sup2; + u(pane 1)&amp;sup2;&lt;/i&gt;</source>
-        <translation>&lt;i&gt;Differenz = Bereich &amp;minus; Bereich 1;&amp;nbsp; u(Differenz)&amp;sup2; = u(Bereich)&amp;sup2; + u(Bereich 1)&amp;sup2;&lt;/i&gt;</translation>
+        <source>&lt;i&gt;difference = pane − pane 1;&#xa0; u(difference)² = u(pane)² + u(pane 1)²&lt;/i&gt;</source>
+        <translation>&lt;i&gt;Differenz = Bereich − Bereich 1;&#xa0; u(Differenz)² = u(Bereich)² + u(Bereich 1)²&lt;/i&gt;</translation>
     </message>
     <message>
-        <source>&lt;i&gt;ex = EX &amp;minus; EC y + EB z + &amp;alpha;&lt;sub&gt;X&lt;/sub&gt; x,&amp;nbsp; ey = EY + EC x &amp;minus; EA z &amp;minus; EC0Y &amp;hellip; + &amp;alpha;&lt;sub&gt;Y&lt;/sub&gt; y,&amp;nbsp; ez = EZ &amp;minus; EB x + EA y&lt;/i&gt;</source>
-        <translation>&lt;i&gt;ex = EX &amp;minus; EC y + EB z + &amp;alpha;&lt;sub&gt;X&lt;/sub&gt; x,&amp;nbsp; ey = EY + EC x &amp;minus; EA z &amp;minus; EC0Y &amp;hellip; + &amp;alpha;&lt;sub&gt;Y&lt;/sub&gt; y,&amp;nbsp; ez = EZ &amp;minus; EB x + EA y&lt;/i&gt;</translation>
+        <source>&lt;i&gt;ex = EX − EC y + EB z + α&lt;sub&gt;X&lt;/sub&gt; x,&#xa0; ey = EY + EC x − EA z − EC0Y … + α&lt;sub&gt;Y&lt;/sub&gt; y,&#xa0; ez = EZ − EB x + EA y&lt;/i&gt;</source>
+        <translation>&lt;i&gt;ex = EX − EC y + EB z + α&lt;sub&gt;X&lt;/sub&gt; x,&#xa0; ey = EY + EC x − EA z − EC0Y … + α&lt;sub&gt;Y&lt;/sub&gt; y,&#xa0; ez = EZ − EB x + EA y&lt;/i&gt;</translation>
     </message>
     <message>
-        <source>&lt;i&gt;met: |residual| + U &amp;le; goal;&amp;nbsp; not met: |residual| &amp;minus; U &amp;gt; goal;&amp;nbsp; U = 2 u&lt;/i&gt;</source>
-        <translation>&lt;i&gt;erreicht: |Residuum| + U &amp;le; Ziel;&amp;nbsp; nicht erreicht: |Residuum| &amp;minus; U &amp;gt; Ziel;&amp;nbsp; U = 2 u&lt;/i&gt;</translation>
+        <source>&lt;i&gt;met: |residual| + U ≤ goal;&#xa0; not met: |residual| − U &amp;gt; goal;&#xa0; U = 2 u&lt;/i&gt;</source>
+        <translation>&lt;i&gt;erreicht: |Residuum| + U ≤ Ziel;&#xa0; nicht erreicht: |Residuum| − U &amp;gt; Ziel;&#xa0; U = 2 u&lt;/i&gt;</translation>
     </message>
     <message>
-        <source>&lt;i&gt;residual = observation &amp;minus; prediction;&amp;nbsp; &amp;Delta;BIC = &amp;Delta;&amp;chi;&amp;sup2; &amp;minus; k ln n,&amp;nbsp; above 10: strong evidence&lt;/i&gt;</source>
-        <translation>&lt;i&gt;Residuum = Beobachtung &amp;minus; Vorhersage;&amp;nbsp; &amp;Delta;BIC = &amp;Delta;&amp;chi;&amp;sup2; &amp;minus; k ln n,&amp;nbsp; über 10: starke Evidenz&lt;/i&gt;</translation>
+        <source>&lt;i&gt;residual = observation − prediction;&#xa0; ΔBIC = Δχ² − k ln n,&#xa0; above 10: strong evidence&lt;/i&gt;</source>
+        <translation>&lt;i&gt;Residuum = Beobachtung − Vorhersage;&#xa0; ΔBIC = Δχ² − k ln n,&#xa0; über 10: starke Evidenz&lt;/i&gt;</translation>
     </message>
     <message>
         <source>&lt;i&gt;usable when: code found, sharp, not over-exposed; touch within 5 standard deviations of its feature; scan complete&lt;/i&gt;</source>
@@ -9896,16 +9928,16 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Ausschlüsse stehen mit ihren Gründen darin, ebenso die Notizen dieser Sitzung (Bearbeiten, Notizen).</translation>
     </message>
     <message>
-        <source>Frame: right-handed, axes X Y Z of ISO 841. Positions in mm, deviations in &amp;micro;m, tilts in &amp;micro;rad.</source>
-        <translation>Koordinatensystem: rechtshändig, Achsen X Y Z nach ISO 841. Positionen in mm, Abweichungen in &amp;micro;m, Winkel in &amp;micro;rad.</translation>
+        <source>Frame: right-handed, axes X Y Z of ISO 841. Positions in mm, deviations in µm, tilts in µrad.</source>
+        <translation>Koordinatensystem: rechtshändig, Achsen X Y Z nach ISO 841. Positionen in mm, Abweichungen in µm, Winkel in µrad.</translation>
     </message>
     <message>
         <source>HTML is self-contained; PDF has pages to sign and is what this step shows.</source>
         <translation>HTML ist in sich abgeschlossen; PDF hat Seiten zum Unterschreiben und wird in diesem Schritt gezeigt.</translation>
     </message>
     <message>
-        <source>ISO 230-1 tables hold errors (EXX, EYX, &amp;hellip;), not corrections: the sign is that of the deviation.</source>
-        <translation>Tabellen nach ISO 230-1 enthalten Abweichungen (EXX, EYX, &amp;hellip;), keine Korrekturen: Das Vorzeichen ist das der Abweichung.</translation>
+        <source>ISO 230-1 tables hold errors (EXX, EYX, …), not corrections: the sign is that of the deviation.</source>
+        <translation>Tabellen nach ISO 230-1 enthalten Abweichungen (EXX, EYX, …), keine Korrekturen: Das Vorzeichen ist das der Abweichung.</translation>
     </message>
     <message>
         <source>If nothing of the catalogue fits, the answer is &lt;i&gt;unknown&lt;/i&gt;, and that is an answer.</source>
@@ -10176,8 +10208,8 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Werkstück</translation>
     </message>
     <message>
-        <source>&lt;i&gt;Connections&lt;/i&gt;: enter an address (http, mqtt, modbus, serial, linuxcnc, genicam &amp;hellip;), see what is there, tick what becomes a column of log.csv. &lt;i&gt;Live view&lt;/i&gt; writes nothing; &lt;i&gt;Record&lt;/i&gt; goes on while you leave the page. Machines are only read. Passwords stand in the environment or in a file of yours, never in the session.</source>
-        <translation>&lt;i&gt;Verbindungen&lt;/i&gt;: eine Adresse eingeben (http, mqtt, modbus, serial, linuxcnc, genicam &amp;hellip;), ansehen, was es dort gibt, und ankreuzen, was eine Spalte von log.csv wird. &lt;i&gt;Live-Ansicht&lt;/i&gt; schreibt nichts; &lt;i&gt;Aufzeichnen&lt;/i&gt; läuft weiter, wenn Sie die Seite verlassen. Maschinen werden nur gelesen. Passwörter stehen in der Umgebung oder in einer eigenen Datei, nie in der Sitzung.</translation>
+        <source>&lt;i&gt;Connections&lt;/i&gt;: enter an address (http, mqtt, modbus, serial, linuxcnc, genicam …), see what is there, tick what becomes a column of log.csv. &lt;i&gt;Live view&lt;/i&gt; writes nothing; &lt;i&gt;Record&lt;/i&gt; goes on while you leave the page. Machines are only read. Passwords stand in the environment or in a file of yours, never in the session.</source>
+        <translation>&lt;i&gt;Verbindungen&lt;/i&gt;: eine Adresse eingeben (http, mqtt, modbus, serial, linuxcnc, genicam …), ansehen, was es dort gibt, und ankreuzen, was eine Spalte von log.csv wird. &lt;i&gt;Live-Ansicht&lt;/i&gt; schreibt nichts; &lt;i&gt;Aufzeichnen&lt;/i&gt; läuft weiter, wenn Sie die Seite verlassen. Maschinen werden nur gelesen. Passwörter stehen in der Umgebung oder in einer eigenen Datei, nie in der Sitzung.</translation>
     </message>
     <message>
         <source>Measured with 14,000 campaigns on PostgreSQL 15, each with one fit of nine parameters, its covariance and one file: 2.2 kB a campaign (campaign 0.21, files 0.23, result 0.81, parameters 0.93 kB, indexes among them); SQLite 1.6 kB. The following figures are calculated from that.</source>
@@ -14309,6 +14341,10 @@ einsatz</translation>
     <message>
         <source>Algebraic circles through the tracks of the marks lie %1, %2 µm from the joint evaluation in the mean, scatter %3, %4 µm: short arcs pull them. They are shown for comparison and not used.</source>
         <translation>Algebraische Kreise durch die Bahnen der Musterpunkte liegen im Mittel %1, %2 µm neben der gemeinsamen Auswertung, Streuung %3, %4 µm: kurze Bögen verfälschen sie. Sie stehen zum Vergleich da und werden nicht verwendet.</translation>
+    </message>
+    <message>
+        <source>Reading the contrast curves</source>
+        <translation>Kontrastkurven werden gelesen</translation>
     </message>
 </context>
 <context>
@@ -21412,14 +21448,6 @@ einsatz</translation>
     <message>
         <source>Fiducial plate</source>
         <translation>Messmarkenplatte</translation>
-    </message>
-    <message>
-        <source>as it lies</source>
-        <translation>wie sie liegt</translation>
-    </message>
-    <message>
-        <source>turned by 90°</source>
-        <translation>um 90° gedreht</translation>
     </message>
     <message>
         <source>What if</source>

@@ -38,8 +38,8 @@ ALONE = ("push broom", "α about X", "β about Y", "γ about Z", "and", "or", "m
 # A report is English, but the window lists its sections.
 HEADING = re.compile(r'(?:\bsection\((?:fmt::format\()?|\bsections\.(?:push_back|emplace_back)\(\{?)\s*"([^"]+)"')
 INSTRUMENT = re.compile(r'if \(instrument == "\w+"\) return "([^"]+)";')
-# Help is HTML with drawings: every block of it is a text of its own, with its marks (widgets/common/help_text.cpp).
-HELP = re.compile(r"<(h3|h4|p|li|td|text)\b[^>]*>(.*?)</\1>", re.S)
+# Help is XHTML with drawings: every block of it is a text of its own, with its marks (widgets/common/help_text.cpp).
+HELP_BLOCKS = {"h3", "h4", "p", "li", "td", "text"}
 PLACEHOLDER = re.compile(r"\{[^{}]*(?:\{\}[^{}]*)*\}")
 STATEMENT = re.compile(r"\s*(select|insert|update|delete|create|drop|alter|pragma|where|from|order by|for update|begin "
                        r"|set [a-z_.]+ =|set default_|setp |sets |addf |net |newsig |show (pin|sig)|timeout |bigint |integer "
@@ -130,11 +130,22 @@ def collectedTexts():
             if calls and calls[-1] in contexts:
                 found.add((contexts[calls[-1]], literal))
     for path in sorted([*(TOP / "resources/help").glob("*.html"), *(TOP / "resources/help").glob("*.svg")]):
-        for _, block in HELP.findall(path.read_text(encoding="utf-8")):
-            text = " ".join(block.split())
-            if re.search(r"[A-Za-z]{2}", re.sub(r"<[^>]*>|&\w+;", "", text)):
-                found.add(("help", text.replace("\\", "\\\\").replace('"', '\\"')))
+        text = path.read_text(encoding="utf-8")
+        # Pieces of a page have no element around them.
+        root = ElementTree.fromstring(text if path.suffix == ".svg" else f"<help>{text}</help>")
+        for block in root.iter():
+            if block.tag.split("}")[-1] in HELP_BLOCKS and re.search(r"[A-Za-z]{2}", "".join(block.itertext())):
+                words = re.sub(r"[ \n\t]+", " ", marked(block)).strip(" ")
+                found.add(("help", words.replace("\\", "\\\\").replace('"', '\\"')))
     return sorted(found)
+
+
+def marked(element):
+    """Text and marks inside an element of the help."""
+    def escaped(text):
+        return (text or "").replace("&", "&amp;").replace("<", "&lt;").replace(">", "&gt;")
+    return escaped(element.text) + "".join(f"<{each.tag}>{marked(each)}</{each.tag}>{escaped(each.tail)}"
+                                           for each in element)
 
 
 def formatsFile(found):

@@ -146,10 +146,41 @@ TEST(Layers, TheWindowShowsNumbersAndWorksNoneOut) {
     for (const std::string& include : includesOf(file))
       if (include.starts_with("core/math/")) wrong.push_back(file.string() + " includes " + include);
   EXPECT_THAT(wrong, ::testing::IsEmpty()) << "statistics and fits belong into the result that is stored";
+  const std::regex work(
+      R"re(\b(evaluateField|fieldBetween|secondAxisBias|closedFormsBeside|contrastGain|contrastAt|fitNineParameters|compareWithOthers|chooseTableOrder|leastSquares|solveLinear)\(|[.>]predict\()re");
+  EXPECT_THAT(holding(fs::path(SPINDRIFT_SOURCE_DIR) / "widgets", work), ::testing::IsEmpty())
+      << "maps, closed forms and predictions are made by a job, in core";
+}
+
+/// What may be shown of a task, and for how long, is told by the graph: nobody compares what results were made from.
+TEST(Layers, FreshnessIsAskedOfTheGraphAlone) {
+  const std::regex compared(R"re(provenance\.(inputs|options|inputs_fingerprint) *[!=]=|\binputsKey\(\) *[!=]=)re");
+  EXPECT_THAT(holding(fs::path(SPINDRIFT_SOURCE_DIR) / "widgets", compared), ::testing::IsEmpty());
 }
 
 TEST(Layers, ConstIsConstInTheWindow) {
   EXPECT_THAT(holding(fs::path(SPINDRIFT_SOURCE_DIR) / "widgets", std::regex("const_cast<")), ::testing::IsEmpty());
+}
+
+/// What differs from task to task stands in its declaration (core/tasks/task_kinds.cpp): who asks what a task is called
+/// to find out what to do holds a second one.
+TEST(Layers, NobodyBranchesOnTheNameOfATask) {
+  const fs::path root = SPINDRIFT_SOURCE_DIR;
+  const std::string declared = readFile(root / "core/tasks/task_kinds.cpp");
+  static const std::regex id(R"re(\.id = "([a-z-]+)")re");
+  std::set<std::string> ids;
+  for (std::sregex_iterator it(declared.begin(), declared.end(), id), end; it != end; ++it) ids.insert((*it)[1]);
+  ASSERT_GT(ids.size(), 8U);
+  std::string any;
+  for (const std::string& one : ids) any += (any.empty() ? "" : "|") + one;
+  const std::string word = R"re("()re" + any + R"re()")re";
+  const std::regex branch("[=!]= *" + word + "|" + word + " *[=!]=|QLatin1String\\(" + word +
+                          "\\) *[=!]=|case hash\\(" + word);
+  std::vector<std::string> wrong;
+  for (const char* folder : {"core/tasks", "app/cli", "widgets/commands", "widgets/jobs", "widgets/models",
+                             "widgets/pages", "widgets/panels", "widgets/services", "widgets/workflow"})
+    for (std::string& file : holding(root / folder, branch)) wrong.push_back(std::move(file));
+  EXPECT_THAT(wrong, ::testing::IsEmpty());
 }
 
 TEST(Layers, ErrorsCarryLinesOfFilesAsNumbers) {

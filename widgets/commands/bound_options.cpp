@@ -7,27 +7,19 @@
 
 namespace spindrift::gui {
 
-BoundOptions::BoundOptions(SessionModel& session, CampaignUndo& undo, std::string key, std::function<void()> changed)
+OptionsBinding::OptionsBinding(SessionModel& session, CampaignUndo& undo, std::string key,
+                               std::function<void()> changed)
     : session_(session), undo_(undo), key_(std::move(key)), changed_(std::move(changed)) {}
 
-nlohmann::json BoundOptions::json() const {
-  nlohmann::json kept = session_.campaignSetting(key_, nlohmann::json::object());
-  return kept.is_null() ? nlohmann::json::object() : kept;
+nlohmann::json OptionsBinding::kept() const {
+  return session_.campaignSetting(key_, nlohmann::json());
 }
 
-void BoundOptions::change(const QString& what, const nlohmann::json& change) {
-  if (filling_) return;
-  nlohmann::json after = json();
-  if (change.is_object() && after.is_object()) {
-    after.update(change);
-  } else {
-    after = change;
-  }
-  if (after == json()) return;
-  undo_.push(new OptionsCommand(session_, what, session_.campaignKey(key_), after, changed_));
+void OptionsBinding::put(const QString& what, const nlohmann::json& before, const nlohmann::json& after) {
+  if (after != before) undo_.push(new OptionsCommand(session_, what, session_.campaignKey(key_), after, changed_));
 }
 
-void BoundOptions::fill(const std::function<void()>& controls) {
+void OptionsBinding::fill(const std::function<void()>& controls) {
   const bool before = std::exchange(filling_, true);
   controls();
   filling_ = before;

@@ -10,6 +10,7 @@
 
 #include "widgets/theme/theme.h"
 
+class QHBoxLayout;
 class QAbstractItemModel;
 class QComboBox;
 class QPainter;
@@ -125,7 +126,7 @@ class Card : public QFrame {
 
  private:
   QLabel* title_;
-  class QHBoxLayout* title_line_;
+  QHBoxLayout* title_line_;
   QVBoxLayout* body_;
 };
 

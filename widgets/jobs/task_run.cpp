@@ -9,10 +9,14 @@
 #include "core/base/error.h"
 #include "core/tasks/task_chain.h"
 #include "widgets/common/core_sentence.h"
-#include "widgets/jobs/task_titles.h"
 
 namespace spindrift::gui {
 namespace {
+
+/// What the list of jobs says while it runs.
+QString titleOf(const std::string& task, const TaskGraph& graph) {
+  return coreSentence(taskKind(task, graph.facts()).title);
+}
 
 /// Tasks of the campaign that was at hand when it began, one after the other.
 class RunningChain : public std::enable_shared_from_this<RunningChain> {
@@ -36,7 +40,7 @@ class RunningChain : public std::enable_shared_from_this<RunningChain> {
     try {
       const TaskGraph graph = session_.tasks();
       const auto task = next_(graph);
-      if (task) title = taskTitle(*task, graph.facts());
+      if (task) title = titleOf(*task, graph);
       if (!task) {
         if (ends_.done) ends_.done();
         return;
@@ -53,10 +57,9 @@ class RunningChain : public std::enable_shared_from_this<RunningChain> {
     const PendingResult pending = session_.begin(task);
     const bool last = task == wanted_;
     const auto self = shared_from_this();
-    const ResultWork result = [self, last, work = std::move(work), origin = pending.origin,
-                               inputs = session_.inputsKey()](JobContext& job) -> Worked {
+    const ResultWork result = [self, last, work = std::move(work), origin = pending.origin](JobContext& job) -> Worked {
       auto given = std::make_shared<TaskGiven>(
-          TaskGiven{origin.kind, origin, inputs, work(job, last ? TaskOutput::Both : TaskOutput::Payload)});
+          TaskGiven{origin.kind, origin, work(job, last ? TaskOutput::Both : TaskOutput::Payload)});
       return {given->result.payload,
               [self, last, given] {
                 if (last && self->ends_.take) self->ends_.take(*given);
@@ -70,7 +73,7 @@ class RunningChain : public std::enable_shared_from_this<RunningChain> {
                                  .toStdString());
               }};
     };
-    jobs_.run(taskJob(session_, pending, taskTitle(task, session_.tasks().facts()), result,
+    jobs_.run(taskJob(session_, pending, titleOf(task, session_.tasks()), result,
                       {.done = [self] { self->next(); },
                        .failed = [self](const QString& sentence) { self->fail(sentence); },
                        .cancelled =
@@ -109,23 +112,24 @@ void runTask(SessionModel& session, JobRunner& jobs, const std::string& task, Ta
     if (const std::string why = graph.whyNot(chain.task()); !why.empty()) throw InputError(why);
     return chain.next(graph);
   };
-  std::make_shared<RunningChain>(session, jobs, task, taskTitle(task, session.tasks().facts()), next, std::move(ends))
-      ->next();
+  std::make_shared<RunningChain>(session, jobs, task, titleOf(task, session.tasks()), next, std::move(ends))->next();
 }
 
 void runOutdated(SessionModel& session, JobRunner& jobs, TaskEnds ends) {
   if (session.campaign() == nullptr) return;
   const auto next = [chain = OutdatedChain()](const TaskGraph& graph) mutable { return chain.next(graph); };
-  std::make_shared<RunningChain>(session, jobs, std::string(), outdatedTitle(), next, std::move(ends))->next();
+  std::make_shared<RunningChain>(session, jobs, std::string(), RunningChain::tr("Running what is outdated"), next,
+                                 std::move(ends))
+      ->next();
 }
 
 std::function<std::function<const TaskGiven*()>(JobContext&)> detailOfTask(SessionModel& session,
                                                                            const std::string& task,
                                                                            const TaskInputs& inputs) {
   const ResultOrigin origin = session.begin(task).origin;
-  return [&session, origin, key = session.inputsKey(),
+  return [&session, origin,
           work = prepareTask(task, session.tasks(), inputs)](JobContext& job) -> std::function<const TaskGiven*()> {
-    auto given = std::make_shared<TaskGiven>(TaskGiven{origin.kind, origin, key, work(job, TaskOutput::Detail)});
+    auto given = std::make_shared<TaskGiven>(TaskGiven{origin.kind, origin, work(job, TaskOutput::Detail)});
     return [&session, given]() -> const TaskGiven* {
       const ResultOrigin now = session.begin(given->task).origin;
       return now.inputs == given->origin.inputs && now.options == given->origin.options ? given.get() : nullptr;

@@ -19,7 +19,6 @@ namespace spindrift::gui {
 struct TaskGiven {
   std::string task;
   ResultOrigin origin;
-  std::string inputs;  ///< SessionModel::inputsKey() when it was prepared
   TaskResult result;
 };
 

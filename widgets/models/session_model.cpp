@@ -152,11 +152,8 @@ CampaignSnapshot SessionModel::snapshot() const {
 }
 
 std::shared_ptr<const StoredEvaluation> SessionModel::evaluation() const {
-  const StoredResult* found = latest("evaluate");
-  if (found == nullptr) return nullptr;
-  if (state_.evaluation == nullptr || state_.evaluation->id != found->id) {
-    state_.evaluation = std::make_shared<StoredEvaluation>(evaluationFrom(*found));
-  }
+  (void)latest("evaluate");
+  state_.readEvaluation();
   return state_.evaluation;
 }
 
@@ -414,7 +411,7 @@ nlohmann::json SessionModel::campaignSetting(const std::string& key, const nlohm
 }
 
 EffectOptions SessionModel::effects() const {
-  return session_ == nullptr ? EffectOptions() : EffectOptions::of(*session_, state_.id);
+  return session_ == nullptr ? EffectOptions() : chosen<EffectOptions>(*session_, state_.id);
 }
 
 std::filesystem::path SessionModel::effectsFile() const {

@@ -114,7 +114,6 @@ void Page::runTask(const std::string& task, WorkEnds ends) {
 void Page::keepGiven(const TaskGiven& given) {
   if (std::exchange(given_visit_, session().visit()) != session().visit()) given_.clear();
   given_[given.task] = std::make_shared<const TaskGiven>(given);
-  take(given);
 }
 
 ShownTask Page::shown(const std::string& task, const QString& title) {

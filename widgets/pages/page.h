@@ -78,10 +78,6 @@ class Page : public QWidget {
   /// For refresh(): what to show of a task, whoever has run it. Where what was given beside a current result is not at
   /// hand, a job of this title works it out again.
   [[nodiscard]] ShownTask shown(const std::string& task, const QString& title);
-  /// Works out again what is shown beside the stored result of a task: `take` gets it, and the page is refreshed.
-  void showAgain(const QString& title, const std::string& task);
-  /// Keeps what a task gave beside what is stored.
-  virtual void take(const TaskGiven& given) { (void)given; }
   /// What the page's tasks work on; with what the page has read already.
   [[nodiscard]] virtual TaskInputs taskInputs() { return session().taskInputs(); }
   /// Work that leaves no result of the campaign: a proposal, a programme, a file.
@@ -100,6 +96,8 @@ class Page : public QWidget {
 
  private:
   [[nodiscard]] Job jobOf(const QString& title, Work work);
+  /// Works out again what is shown beside the stored result of a task; the page is refreshed then.
+  void showAgain(const QString& title, const std::string& task);
   void keepGiven(const TaskGiven& given);
 
   std::int64_t seen_visit_ = -1;

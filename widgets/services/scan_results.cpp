@@ -15,15 +15,12 @@ ScanResults& ScanResults::of(SessionModel& session) {
 
 void ScanResults::follow() {
   const std::string folder = session_.campaign() == nullptr ? std::string() : session_.campaign()->folder.string();
-  const bool same = folder_ == folder;
-  if (same && generation_ == session_.captureGeneration()) return;
+  if (folder_ == folder && generation_ == session_.captureGeneration()) return;
   folder_ = folder;
   generation_ = session_.captureGeneration();
   read_ = false;
   captures_.clear();
   failure_.clear();
-  if (same) return;  // more scans: the last evaluation stays to be looked at
-  evaluations_.clear();
 }
 
 const std::vector<ScanCapture>& ScanResults::captures() {
@@ -37,28 +34,6 @@ const std::vector<ScanCapture>& ScanResults::captures() {
     }
   }
   return captures_;
-}
-
-std::shared_ptr<const ScanEvaluation> ScanResults::last(const std::string& scan_model) {
-  follow();
-  const auto found = evaluations_.find(scan_model);
-  return found == evaluations_.end() ? nullptr : found->second.evaluation;
-}
-
-bool ScanResults::current(const std::string& scan_model) {
-  follow();
-  const auto found = evaluations_.find(scan_model);
-  return found != evaluations_.end() && found->second.key == key();
-}
-
-void ScanResults::set(const std::string& key, const std::string& scan_model,
-                      std::shared_ptr<const ScanEvaluation> evaluation) {
-  follow();
-  if (key == this->key()) evaluations_[scan_model] = {key, std::move(evaluation)};
-}
-
-std::string ScanResults::key() const {
-  return session_.inputsKey();
 }
 
 std::string ScanResults::modelOfMachine() const {

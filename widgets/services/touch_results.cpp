@@ -15,16 +15,12 @@ TouchResults& TouchResults::of(SessionModel& session) {
 
 void TouchResults::follow() {
   const std::string folder = session_.campaign() == nullptr ? std::string() : session_.campaign()->folder.string();
-  const bool same = campaign_ == session_.campaignId() && folder_ == folder;
-  if (same && generation_ == session_.captureGeneration()) return;
+  if (campaign_ == session_.campaignId() && folder_ == folder && generation_ == session_.captureGeneration()) return;
   campaign_ = session_.campaignId();
   folder_ = folder;
   generation_ = session_.captureGeneration();
   touches_.reset();
   failure_.clear();
-  if (same) return;  // more touches: the last evaluation stays to be looked at
-  evaluation_.reset();
-  evaluated_key_.clear();
 }
 
 std::shared_ptr<const TouchList> TouchResults::touches() {
@@ -39,27 +35,6 @@ std::shared_ptr<const TouchList> TouchResults::touches() {
     }
   }
   return touches_;
-}
-
-std::string TouchResults::key() const {
-  return session_.inputsKey();
-}
-
-std::shared_ptr<const TouchEvaluation> TouchResults::last() {
-  follow();
-  return evaluation_;
-}
-
-bool TouchResults::current() {
-  follow();
-  return evaluation_ != nullptr && evaluated_key_ == key();
-}
-
-void TouchResults::set(const std::string& key, std::shared_ptr<const TouchEvaluation> evaluation) {
-  follow();
-  if (key != this->key()) return;
-  evaluated_key_ = key;
-  evaluation_ = std::move(evaluation);
 }
 
 const Artefact* artefactOf(const Campaign& campaign, const TouchList* touches) {

@@ -558,11 +558,11 @@ namespace {
 /// A new campaign begins with the goals the user prefers. They are kept with it: the command line judges by them, too.
 void giveGoals(Session& session, std::int64_t campaign) {
   const Preferences wanted = preferences();
-  VerifyOptions options = VerifyOptions::of(session, campaign);
+  auto options = chosen<VerifyOptions>(session, campaign);
   if (wanted.goal_um == options.request.goal_um && wanted.goal_urad == options.request.goal_urad) return;
   options.request.goal_um = wanted.goal_um;
   options.request.goal_urad = wanted.goal_urad;
-  session.setSetting(campaignKey(option_keys::verify, campaign), options.json());
+  session.setSetting(campaignKey(VerifyOptions::key, campaign), optionsJson(options));
 }
 
 }  // namespace

@@ -94,10 +94,7 @@ QString artefactName(const WhatIfArtefact& artefact) {
   QString name = artefact.kind == "hole_bar" ? WhatIfWindow::tr("Hole bar")
                  : artefact.kind == "balls"  ? WhatIfWindow::tr("Ball artefact")
                                              : WhatIfWindow::tr("Fiducial plate");
-  QString pose = fromCore(artefact.pose);
-  if (artefact.pose == "as it lies") pose = WhatIfWindow::tr("as it lies");
-  if (artefact.pose == "turned by 90 deg") pose = WhatIfWindow::tr("turned by 90°");
-  pose.replace(QStringLiteral(" deg"), QStringLiteral("°"));
+  const QString pose = coreSentence(artefact.pose);
   return pose.isEmpty() ? name : QStringLiteral("%1, %2").arg(name, pose);
 }
 

@@ -26,8 +26,8 @@ StoredResult simulationResult(const SessionModel& session, const std::string& si
   if (store == nullptr || simulator.empty()) return {};
   std::vector<StoredResult> all = store->resultHeads(session.campaignId(), "simulation");
   for (auto it = all.rbegin(); it != all.rend(); ++it) {
-    const nlohmann::json& options = it->provenance.options;
-    if (options.value("simulator", "") == simulator || options.value("version", "") == simulator) return std::move(*it);
+    const auto options = optionsFrom<SimulationOptions>(it->provenance.options);
+    if (options.simulator == simulator || options.version == simulator) return std::move(*it);
   }
   return {};
 }

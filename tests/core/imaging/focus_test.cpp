@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "core/base/random.h"
 #include "core/imaging/contrast_curve.h"
@@ -56,6 +57,29 @@ TEST(Focus, TheGainOfACurveThatIsKeptIsFoundAgain) {
   }
   EXPECT_DOUBLE_EQ(contrastAt(shape, 2.5, 30.0, 0.03), 1.0 / 2.5);
   EXPECT_NEAR(contrastGain(set, shape, 30.0), 2.5, 1e-12);
+}
+
+TEST(Focus, CurvesAreDrawnFromWhatIsStored) {
+  const Eigen::Vector3d shape(20.0, -3.0, 40.0);
+  nlohmann::json curve = nlohmann::json::array();
+  for (const double z : heights) curve.push_back({{"z_mm", z}, {"contrast", contrastAt(shape, 2.5, 30.0, z)}});
+  curve.push_back({{"z_mm", 0.3}, {"contrast", nullptr}});
+  const nlohmann::json state{{"state", "M0"}, {"focus", {{"curve", curve}, {"peak_z_um", {{"value", 30.0}}}}}};
+  nlohmann::json details{{"fiducials", {{{"fiducial", "F1"}, {"states", {state, {{"state", "M1"}}}}}}},
+                         {"contrast_curve", {{"shape_per_mm", {20.0, -3.0, 40.0}}}}};
+  std::vector<ContrastCurve> curves = contrastCurves(details);
+  ASSERT_EQ(curves.size(), 1U);
+  EXPECT_EQ(curves[0].fiducial, "F1");
+  EXPECT_EQ(curves[0].height_um.size(), heights.size()) << "what was not measured is left out";
+  ASSERT_EQ(curves[0].fitted.size(), curves[0].fitted_height_um.size());
+  EXPECT_NEAR(curves[0].fitted.front(), curves[0].contrast.front(), 1e-9);
+  EXPECT_NEAR(curves[0].fitted.back(), curves[0].contrast.back(), 1e-9);
+  details["contrast_curve"]["shape_per_mm"] = {20.0, "x"};
+  curves = contrastCurves(details);
+  ASSERT_EQ(curves.size(), 1U);
+  EXPECT_TRUE(curves[0].fitted.empty());
+  for (const char* damaged : {"{}", "[]", "3", R"({"fiducials": 4})", R"({"fiducials": [{"states": [{"focus": 1}]}]})"})
+    EXPECT_TRUE(contrastCurves(nlohmann::json::parse(damaged)).empty()) << damaged;
 }
 
 TEST(Focus, StatedUncertaintiesHold) {

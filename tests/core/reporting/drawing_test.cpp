@@ -4,6 +4,7 @@
 
 #include <gmock/gmock.h>
 
+#include <limits>
 #include <opencv2/imgcodecs.hpp>
 
 #include "core/base/error.h"
@@ -106,6 +107,18 @@ TEST(Drawing, PicturesAreEmbedded) {
   EXPECT_THAT(svgOf(drawing), HasSubstr("data:image/jpeg;base64,"));
   drawing.picture(0.0, 0.0, 2.0, 2.0, "no picture");
   EXPECT_EQ(pixelsOf(drawing).at<cv::Vec3b>(10, 10), middle) << "what cannot be read is left out";
+}
+
+TEST(Drawing, WhatIsNowhereIsNotDrawn) {
+  const double nowhere = std::numeric_limits<double>::quiet_NaN(), far = std::numeric_limits<double>::infinity();
+  Drawing with(100.0, 50.0), without(100.0, 50.0);
+  with.path({{{1.0, 1.0}, {nowhere, 2.0}, {3.0, 3.0}}}, {.stroke = PictureColour{0, 0, 0}});
+  without.path({{{1.0, 1.0}, {3.0, 3.0}}}, {.stroke = PictureColour{0, 0, 0}});
+  with.disc(nowhere, 1.0, 2.0, {0, 0, 0});
+  with.rectangle(1.0, far, 1.0, 1.0, PictureColour{0, 0, 0});
+  with.text(far, 1.0, "t", {.size = 10.0});
+  EXPECT_EQ(svgOf(with), svgOf(without));
+  EXPECT_EQ(pngOf(with, 1.0), pngOf(without, 1.0));
 }
 
 TEST(Drawing, RefusesScalesThatCannotBe) {

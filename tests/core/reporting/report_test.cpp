@@ -87,6 +87,53 @@ TEST(ReportPdf, SetsTextsAndTablesLongerThanAPage) {
   EXPECT_LT(pdf.pages, 120);
 }
 
+/// Names and notes may hold anything: a report of it can be written, and says what stands there.
+TEST(ReportPdf, HostileNamesAreSet) {
+  const std::string name = "mill \xE9\xFF\x01 <b>&\u202Egood\u202C\u2066x";
+  Report report(name, name);
+  report.section(name).paragraph(name).callout(CalloutKind::Note, name).code(name + "\n" + name);
+  report.table({name, name}, {{name, name}}, name).facts({{name, name}}).figure(curve(), name);
+  Drawing drawing(200.0, 100.0);
+  drawing.text(10.0, 10.0, name, {.size = 12.0});
+  report.figure(std::move(drawing), "A name");
+  const std::string html = htmlOf(report);
+  for (const char* never : {"\xE9", "\xFF", "\x01", "<b>", "\u202E", "\u2066"})
+    EXPECT_THAT(html, Not(HasSubstr(never)));
+  EXPECT_THAT(html, HasSubstr("mill \uFFFD\uFFFD  &lt;b&gt;&amp;\uFFFDgood\uFFFD\uFFFDx"));
+  EXPECT_GE(pdfOf(report).pages, 1);
+}
+
+TEST(ReportPdf, WhatIsHigherThanAPageGoesOnOnTheNext) {
+  std::string text;
+  for (int i = 0; i < 3000; ++i) text += "word" + std::to_string(i) + " ";
+  const auto pagesOf = [](auto fill) {
+    Report report("t", "s");
+    report.withoutSignatures();
+    fill(report);
+    return pdfOf(report).pages;
+  };
+  const int of_text = pagesOf([&](Report& r) { r.paragraph(text); });
+  EXPECT_GE(of_text, 4);
+  EXPECT_GE(pagesOf([&](Report& r) { r.callout(CalloutKind::Bad, text); }), of_text);
+  EXPECT_GE(pagesOf([&](Report& r) { r.table({"Name", "Words"}, {{"a", text}, {"b", "c"}}); }), of_text - 1);
+  EXPECT_GE(pagesOf([&](Report& r) { r.facts({{"Name", text}}); }), of_text);
+  EXPECT_GE(pagesOf([&](Report& r) { r.table({"Name", text}, {{"a", "b"}, {"c", "d"}}); }), of_text - 1);
+}
+
+TEST(ReportPdf, TablesMayHaveNoRowsOrVeryManyColumns) {
+  Report report("t", "s");
+  report.table({"Point", "EX / µm"}, {}, "Nothing");
+  EXPECT_THAT(htmlOf(report), HasSubstr("<td>none</td>")) << "a table without rows is no table";
+  report.facts({});
+  ReportRow header, row;
+  for (int i = 0; i < 80; ++i) {
+    header.emplace_back("Column " + std::to_string(i));
+    row.emplace_back("0.123456 ± 0.000001");
+  }
+  report.table(header, {row, row});
+  EXPECT_LT(pdfOf(report).pages, 20);
+}
+
 struct Impatient final : ProgressSink {
   explicit Impatient(double part) : from(part) {}
   void report(double fraction, std::string_view) override {

@@ -46,6 +46,31 @@ TEST(Steps, ProgressIsCounted) {
   EXPECT_EQ(step.of, 4U);
 }
 
+TEST(Steps, WhatIsExcludedIsNotMissedAndWhatIsNotLookedAtNotPraised) {
+  TaskSession s;
+  for (int i = 1; i < 4; ++i) s.capture(i);
+  s.session_.exclude(s.id_, "captures/images/0.jpg", "blurred");
+  s.run("check", checkOf(3, 0));
+  s.session_.exclude(s.id_, "captures/images/1.jpg", "dark");
+  EXPECT_EQ(s.step(StepId::Capture).state, StepState::Outdated) << "nothing is left to be checked for the first time";
+  s.run("check", checkOf(2, 0));
+  EXPECT_EQ(s.step(StepId::Capture).sentence, "All captures are checked.");
+  s.session_.addCaptureRows(s.id_, "touches.csv", "time_s", {"1", "2"});
+  s.run("check", checkOf(2, 0));
+  EXPECT_EQ(s.step(StepId::Capture).state, StepState::Current);
+  EXPECT_THAT(s.step(StepId::Capture).sentence, HasSubstr("those of other instruments are judged when"));
+}
+
+TEST(Steps, AReportWhoseFileIsGoneIsNotWritten) {
+  TaskSession s;
+  s.run("evaluate");
+  s.run("report", {{"file", "reports/report-1.html"}});
+  EXPECT_EQ(s.step(StepId::Report).state, StepState::Attention);
+  s.folder_.write("s/reports/report-1.html", "<html>");
+  EXPECT_EQ(s.step(StepId::Report).state, StepState::Current);
+  EXPECT_EQ(s.step(StepId::Report).sentence, "The report is written.");
+}
+
 TEST(Steps, APlanSaysHowMuchIsTaken) {
   TaskSession s;
   MeasurementPlan plan;
@@ -88,6 +113,21 @@ TEST(Steps, BlockedOnesSayWhy) {
   EXPECT_THAT(s.step(StepId::Model).sentence, HasSubstr("Evaluate the captures first"));
   EXPECT_THAT(s.step(StepId::Discrepancy).sentence, HasSubstr("without a simulation"));
   EXPECT_EQ(s.step(StepId::Report).state, StepState::Blocked);
+}
+
+TEST(Steps, AnInstrumentThatFailedItsCheckIsNotWarm) {
+  TaskSession s;
+  s.run("evaluate");
+  s.option(option_keys::warm_statement, {{"settled", true}, {"by", "operator"}});
+  EXPECT_EQ(s.step(StepId::WarmUp).state, StepState::Current);
+  const nlohmann::json failed{{"status", "converged"}, {"passed", false}, {"reason", "EX moves by 3 um."}};
+  s.run("check-repeatability", failed);
+  EXPECT_EQ(s.step(StepId::WarmUp).state, StepState::Attention);
+  EXPECT_EQ(s.step(StepId::WarmUp).sentence, "EX moves by 3 um.");
+  s.run("check-repeatability", {{"status", "converged"}, {"passed", true}});
+  EXPECT_EQ(s.step(StepId::WarmUp).state, StepState::Current);
+  s.run("check-jogs", {{"status", "not run"}, {"passed", false}, {"reason", "There are no jogs."}});
+  EXPECT_EQ(s.step(StepId::WarmUp).state, StepState::Current) << "nothing was measured";
 }
 
 TEST(Steps, ASkippedWarmUpSaysWhatItMeans) {

@@ -59,9 +59,9 @@ TEST(CompensatorRun, ALogWithoutTheOutputIsSaid) {
 
 TEST(CompensatorRun, TheRangeIsTheOneChosenOrTheSecondHalf) {
   const TimeSeries series = stepLog(true);
-  EXPECT_EQ(judgedRange({{"options", {{"test", {600.0, 1200.0}}}}}, series).to_s, 1200.0);
-  EXPECT_EQ(judgedRange({{"options", nullptr}}, series).from_s, 6000.0);
-  EXPECT_EQ(judgedRange(nlohmann::json::object(), series).to_s, 12000.0);
+  EXPECT_EQ(judgedRange(TimeRange{600.0, 1200.0}, series).to_s, 1200.0);
+  EXPECT_EQ(judgedRange({}, series).from_s, 6000.0);
+  EXPECT_EQ(judgedRange({}, series).to_s, 12000.0);
 }
 
 }  // namespace

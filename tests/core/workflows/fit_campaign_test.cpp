@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/base/random.h"
+#include "core/workflows/nine_parameter_maps.h"
 
 namespace spindrift {
 namespace {
@@ -46,6 +47,26 @@ Campaign someCampaign(const std::vector<Eigen::Vector3d>& points) {
 }
 
 const std::vector<Eigen::Vector3d> five{{20, 15, 0}, {280, 15, 0}, {280, 115, 0}, {20, 115, 0}, {150, 65, 0}};
+
+TEST(FitWorkflow, MapsThatAreShownAreThoseOfTheModel) {
+  Campaign campaign = someCampaign(five);
+  const NineParameterFit fit = fitNineParameters(*campaign.observations, {.state = "M1"});
+  const auto maps = nineParameterMaps(campaign.machine, fit, {}, {});
+  ASSERT_TRUE(maps.has_value());
+  EXPECT_FALSE(maps->higher.has_value());
+  EXPECT_FALSE(maps->difference.has_value());
+  for (std::size_t k = 0; k < 3; ++k) {
+    const ComponentMap& map = maps->nine[k];
+    EXPECT_EQ(map.field.component, all_components[k]);
+    EXPECT_EQ(map.field.markers.size(), five.size());
+    const Field same = tableField(fit, fit.predictingModel(), map.field.grid, all_components[k]);
+    EXPECT_EQ(map.field.value, same.value);
+    EXPECT_EQ(map.field.sigma, same.sigma);
+    EXPECT_EQ(map.largest_um, same.largestMagnitude());
+  }
+  campaign.machine.axes.pop_back();
+  EXPECT_FALSE(nineParameterMaps(campaign.machine, fit, {}, {}).has_value()) << "no axis Y";
+}
 
 TEST(FitWorkflow, JsonHoldsWhatTheContractNames) {
   const Campaign campaign = someCampaign(five);

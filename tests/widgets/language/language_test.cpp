@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <QApplication>
+#include <QDir>
 #include <QDoubleSpinBox>
 #include <QFile>
 #include <QImage>
@@ -381,6 +382,32 @@ TEST_F(LanguageTest, DrawingsOfTheHelpAreInItToo) {
   ASSERT_FALSE(english.isNull());
   ASSERT_FALSE(german.isNull());
   EXPECT_NE(english, german) << "its caption";
+}
+
+/// A block that is not found is shown in English: none of them is.
+TEST_F(LanguageTest, EveryPageOfTheHelpIsReadAndInGerman) {
+  const QDir folder(QStringLiteral(SPINDRIFT_SOURCE_DIR "/resources/help"));
+  const QStringList pages = folder.entryList({QStringLiteral("*.html")});
+  ASSERT_GE(pages.size(), 10);
+  for (const QString& page : pages) {
+    const auto lines = [&](const char* language) {
+      applyLanguage(QLatin1String(language));
+      HelpText help(QStringLiteral("Help"));
+      help.showHelp(page.section(QLatin1Char('.'), 0, 0));
+      return help.toPlainText().split(QLatin1Char('\n'), Qt::SkipEmptyParts);
+    };
+    const QStringList english = lines("en");
+    const QStringList german = lines("de");
+    EXPECT_GT(english.size(), 3) << page.toStdString() << " is read";
+    ASSERT_EQ(english.size(), german.size()) << page.toStdString();
+    for (int i = 0; i < english.size(); ++i) {
+      EXPECT_FALSE(english[i].contains(QLatin1String("</"))) << english[i].toStdString();
+      // Formulas are the same.
+      if (english[i].size() > 40 && english[i].contains(QRegularExpression(QStringLiteral("[a-z]{5}")))) {
+        EXPECT_NE(english[i], german[i]) << page.toStdString();
+      }
+    }
+  }
 }
 
 TEST_F(LanguageTest, TitlesHaveUnitsAsPeopleWriteThem) {

@@ -372,8 +372,14 @@ TEST_P(JobsMidway, LosesAndMixesNothing) {
                            after = {{"rejected", {"spindle.growth.x"}}};
                          } else if (std::string(c.option) == option_keys::verify) {
                            after["goal_um"] = 7.5;
-                         } else {
-                           after["of_a_test"] = 1;
+                         } else if (std::string(c.option) == option_keys::nine_parameters) {
+                           after["robust"] = 1;
+                         } else if (std::string(c.option) == option_keys::cycles) {
+                           after["second_axis"] = true;
+                         } else if (std::string(c.option) == option_keys::thermal) {
+                           after["method"] = "oe";
+                         } else if (std::string(c.option) == option_keys::compensation) {
+                           after["positions"] = 7;
                          }
                          return new OptionsCommand(session_(), QStringLiteral("change"), key, after, {});
                        }});
@@ -439,7 +445,8 @@ INSTANTIATE_TEST_SUITE_P(Jobs, JobsMidway, ::testing::ValuesIn(cases()), [](cons
 
 TEST(JobsMidwayCases, EveryJobOfAPageIsAmongThem) {
   // What belongs to no campaign (plant, exercises), one picture or cloud that was picked, and what has tests of its own
-  // (scanning_pages_test, simulation_panel_test, compensate_page_test, review_page_test, campaigns_test).
+  // (scanning_pages_test, simulation_panel_test, compensate_page_test, nine_parameter_page_test, review_page_test,
+  // campaigns_test).
   const std::set<QString> elsewhere{QStringLiteral("Decoding %1"),
                                     QStringLiteral("Reading %1"),
                                     QStringLiteral("Comparing scans"),
@@ -448,13 +455,20 @@ TEST(JobsMidwayCases, EveryJobOfAPageIsAmongThem) {
                                     QStringLiteral("Putting it into the simulation"),
                                     QStringLiteral("Reading the model"),
                                     QStringLiteral("Reading the six errors"),
+                                    QStringLiteral("Reading the fit"),
+                                    QStringLiteral("Reading the contrast curves"),
                                     QStringLiteral("Reading the log that is being recorded"),
                                     QStringLiteral("Running what is outdated")};
   std::set<QString> tested;
   for (const Case& c : cases()) tested.insert(QString::fromLatin1(c.title));
   const QRegularExpression job(QStringLiteral(
-      R"re((?:\brun_?\(|\bdisplay\(|\bshowAgain\(|\bTasks::|\bjob\.title = |\bQString title = |pending, )\s*tr\("([^"]+)")re"));
+      R"re((?:\brun_?\(|\bdisplay\(|\bshown\([\w"-]+, |\bjob\.title = |\bQString title = |pending, )\s*tr\("([^"]+)")re"));
   int found = 0;
+  for (const TaskKind& kind : taskKinds()) {
+    ++found;
+    const QString title = QString::fromUtf8(kind.title.data(), static_cast<qsizetype>(kind.title.size()));
+    EXPECT_TRUE(tested.contains(title) || elsewhere.contains(title)) << title.toStdString();
+  }
   for (const char* folder : {"pages", "panels", "jobs"}) {
     QDirIterator files(QStringLiteral(SPINDRIFT_SOURCE_DIR "/widgets/") + QLatin1String(folder),
                        {QStringLiteral("*.cpp")}, QDir::Files, QDirIterator::Subdirectories);

@@ -81,7 +81,7 @@ class PreferencesTest : public StoryTest {
     });
   }
   [[nodiscard]] double goalOfTheCampaign() {
-    return VerifyOptions::of(*window_->session().session(), window_->session().campaignId()).request.goal_um;
+    return chosen<VerifyOptions>(*window_->session().session(), window_->session().campaignId()).request.goal_um;
   }
 
   QDialog* dialog_ = nullptr;
@@ -255,8 +255,8 @@ TEST_F(PreferencesTest, ANewCampaignBeginsWithTheGoalAndKeepsItsOwn) {
   wait();
   ASSERT_EQ(window_->session().campaigns().size(), 2U);
   EXPECT_DOUBLE_EQ(goalOfTheCampaign(), 8.5);
-  EXPECT_DOUBLE_EQ(VerifyOptions::of(*window_->session().session(), window_->session().campaignId()).request.goal_urad,
-                   20.0);
+  EXPECT_DOUBLE_EQ(
+      chosen<VerifyOptions>(*window_->session().session(), window_->session().campaignId()).request.goal_urad, 20.0);
   const nlohmann::json machine = window_->session().campaign()->machine.source;
   window_->startMeasurement(machine);
   ASSERT_NE(window_->session().campaign(), nullptr);

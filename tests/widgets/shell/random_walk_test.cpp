@@ -462,7 +462,7 @@ class RandomWalk : public StoryTest {
     const auto set = session().observations();
     ASSERT_TRUE(set);
     const NineParameterOptions options =
-        nineParameterOptions(session().campaignSetting(option_keys::nine_parameters, nlohmann::json::object()));
+        chosen<NineParameterChoice>(*session().session(), session().campaignId()).options();
     if (tasks.status("fit").current) {
       ++current_fits_;
       const NineParameterFit now = fitNineParameters(*set, options);
@@ -477,7 +477,8 @@ class RandomWalk : public StoryTest {
     if (tasks.status("compensation").current) {
       ++current_plans_;
       JobContext job;
-      const CompensationRequest request = compensationRequest(*session().session(), session().campaignId(), true);
+      const CompensationRequest request =
+          CompensationTaskOptions::of(*session().session(), session().campaignId(), true).request();
       const nlohmann::json now = planCompensation(*session().campaign(), *set, request, job).json();
       const nlohmann::json& stored = session().latest("compensation")->payload;
       EXPECT_EQ(now.at("rms_after_um"), stored.at("rms_after_um"));

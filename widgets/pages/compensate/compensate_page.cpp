@@ -45,8 +45,7 @@ constexpr std::array<const char*, 3> axis_words{"X", "Y", "Z"};
 }  // namespace
 
 CompensatePage::CompensatePage(PageContext page_context, QWidget* parent)
-    : Page(std::move(page_context), StepId::Compensate, parent),
-      options_(session(), context().undo, option_keys::compensation, [this] {
+    : Page(std::move(page_context), StepId::Compensate, parent), options_(session(), context().undo, [this] {
         context().workflow.refresh();
         refresh();
         compute();
@@ -160,24 +159,28 @@ CompensatePage::CompensatePage(PageContext page_context, QWidget* parent)
     if (!folder.isEmpty()) exportFiles(folder);
   });
   connect(source_, &QComboBox::activated, this, [this](int) {
-    options_.change(tr("choose the model to compensate with"), {{"source", source_->currentData().toInt()}});
+    options_.change(tr("choose the model to compensate with"), [this](CompensationChoice& o) {
+      o.source = static_cast<CompensationSource>(source_->currentData().toInt());
+    });
   });
   connect(state_, &QComboBox::activated, this, [this](int) {
-    options_.change(tr("choose the state to compensate"), {{"state", state_->currentText().toStdString()}});
+    options_.change(tr("choose the state to compensate"),
+                    [this](CompensationChoice& o) { o.state = state_->currentText().toStdString(); });
   });
   connect(positions_, &QSpinBox::editingFinished, this, [this] {
     if (positions_->value() != request().positions) {
-      options_.change(tr("change the positions of the files"), {{"positions", positions_->value()}});
+      options_.change(tr("change the positions of the files"),
+                      [this](CompensationChoice& o) { o.positions = positions_->value(); });
     }
   });
   for (QDoubleSpinBox* box : reference_) {
     connect(box, &QDoubleSpinBox::editingFinished, this, [this] {
       if (options_.filling() || !plan_) return;
-      const nlohmann::json now{reference_[0]->value(), reference_[1]->value(), reference_[2]->value()};
       const Eigen::Vector3d& shown = plan_->reference_mm;
       const Eigen::Vector3d asked(reference_[0]->value(), reference_[1]->value(), reference_[2]->value());
       if ((asked - shown).cwiseAbs().maxCoeff() > 0.05) {
-        options_.change(tr("change the reference position of the tables"), {{"reference_mm", now}});
+        options_.change(tr("change the reference position of the tables"),
+                        [&](CompensationChoice& o) { o.reference_mm = asked; });
       }
     });
   }
@@ -202,8 +205,9 @@ bool CompensatePage::hasSource(CompensationSource source) const {
 }
 
 CompensationRequest CompensatePage::request() const {
-  return compensationRequest(*session().session(), session().campaignId(),
-                             hasSource(CompensationSource::NineParameters));
+  return CompensationTaskOptions::of(*session().session(), session().campaignId(),
+                                     hasSource(CompensationSource::NineParameters))
+      .request();
 }
 
 void CompensatePage::fillChoices() {
@@ -282,7 +286,7 @@ void CompensatePage::refresh() {
     if (plan_ && !plan_->richer_model.empty()) {
       callout()->setAction(tr("Use the higher order"), [this] {
         options_.change(tr("choose the model to compensate with"),
-                        {{"source", static_cast<int>(CompensationSource::HigherOrder)}});
+                        [](CompensationChoice& o) { o.source = CompensationSource::HigherOrder; });
       });
     }
   }

@@ -78,7 +78,7 @@ class CompensatePage : public Page {
   QCheckBox* machine_;
   View3D* view_;
   std::shared_ptr<const CompensationPlan> plan_;
-  BoundOptions options_;
+  BoundOptions<CompensationChoice> options_;
 };
 
 }  // namespace spindrift::gui

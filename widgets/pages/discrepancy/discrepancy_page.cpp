@@ -296,8 +296,8 @@ void DiscrepancyPage::search() {
 }
 
 void DiscrepancyPage::change(const QString& what, const EffectOptions& after) {
-  context().undo.push(new OptionsCommand(session(), what, session().campaignKey(option_keys::discrepancy), after.json(),
-                                         [this] { choiceChanged(); }));
+  context().undo.push(new OptionsCommand(session(), what, session().campaignKey(option_keys::discrepancy),
+                                         optionsJson(after), [this] { choiceChanged(); }));
 }
 
 bool DiscrepancyPage::showStored() {
@@ -307,8 +307,9 @@ bool DiscrepancyPage::showStored() {
 }
 
 void DiscrepancyPage::changeEffects(const QString& what, const EffectOptions& after, bool typed) {
-  std::unique_ptr<QUndoCommand> change = std::make_unique<OptionsCommand>(
-      session(), what, session().campaignKey(option_keys::discrepancy), after.json(), [this] { effectsChanged(); });
+  std::unique_ptr<QUndoCommand> change =
+      std::make_unique<OptionsCommand>(session(), what, session().campaignKey(option_keys::discrepancy),
+                                       optionsJson(after), [this] { effectsChanged(); });
   if (typed) change = std::make_unique<ApplyCommand>(session(), EffectsPanel::draft_name, std::move(change));
   context().undo.push(change.release());
 }

@@ -15,10 +15,10 @@
 #include <optional>
 
 #include "core/base/text.h"
-#include "core/imaging/contrast_curve.h"
 #include "core/workflows/evaluate_campaign.h"
 #include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
+#include "widgets/models/cells.h"
 #include "widgets/models/rows_model.h"
 #include "widgets/panels/thermal/resolution_check_panel.h"
 #include "widgets/plots/plot.h"
@@ -351,49 +351,37 @@ void FiducialCalibratePage::showCircles(const StoredEvaluation& evaluation) {
 void FiducialCalibratePage::showContrast() {
   const auto evaluation = session().evaluation();
   if (evaluation == nullptr) return;
-  const nlohmann::json& d = evaluation->details;
-  const nlohmann::json shape =
-      d.value("contrast_curve", nlohmann::json::object()).value("shape_per_mm", nlohmann::json());
+  if (curves_of_ != evaluation) {
+    contrast_->setContent({});
+    return display(tr("Reading the contrast curves"), [this, evaluation](JobContext&) -> std::function<void()> {
+      return [this, evaluation, curves = contrastCurves(evaluation->details)] {
+        curves_of_ = evaluation;
+        curves_ = curves;
+        showContrast();
+      };
+    });
+  }
   std::vector<Series> series;
   int colour = 0;
-  for (const auto& fiducial : d.value("fiducials", nlohmann::json::array())) {
-    if (QString::fromStdString(fiducial.value("fiducial", std::string())) != fiducial_->currentText()) continue;
-    for (const auto& state : fiducial.value("states", nlohmann::json::array())) {
-      const nlohmann::json focus = state.value("focus", nlohmann::json());
-      if (!focus.is_object()) continue;
-      FocusSet points;
-      Series measured;
-      measured.name = tr("state %1").arg(QString::fromStdString(state.value("state", std::string())));
-      measured.style = SeriesStyle::Points;
-      measured.colour = colour;
-      for (const auto& p : focus.value("curve", nlohmann::json::array())) {
-        if (!p.value("contrast", nlohmann::json()).is_number()) continue;
-        points.height_mm.push_back(p["z_mm"].get<double>());
-        points.normalised.push_back(p["contrast"].get<double>());
-        measured.x.push_back(1000 * points.height_mm.back());
-      }
-      measured.y = points.normalised;
-      const nlohmann::json peak = focus.value("peak_z_um", nlohmann::json());
-      if (shape.is_array() && shape.size() == 3 && peak.is_object() && peak["value"].is_number() &&
-          measured.x.size() >= 2) {
-        const Eigen::Vector3d terms(shape[0].get<double>(), shape[1].get<double>(), shape[2].get<double>());
-        const double peak_um = peak["value"].get<double>();
-        const double gain = contrastGain(points, terms, peak_um);
-        Series fitted;
-        fitted.style = SeriesStyle::Line;
-        fitted.colour = colour;
-        fitted.legend = false;
-        const auto [low, high] = std::minmax_element(measured.x.begin(), measured.x.end());
-        for (int i = 0; i <= 120; ++i) {
-          const double z_um = *low + (*high - *low) * i / 120;
-          fitted.x.push_back(z_um);
-          fitted.y.push_back(contrastAt(terms, gain, peak_um, 1e-3 * z_um));
-        }
-        series.push_back(std::move(fitted));
-      }
-      series.push_back(std::move(measured));
-      ++colour;
+  for (const ContrastCurve& curve : curves_) {
+    if (fromCore(curve.fiducial) != fiducial_->currentText()) continue;
+    Series measured;
+    measured.name = tr("state %1").arg(fromCore(curve.state));
+    measured.style = SeriesStyle::Points;
+    measured.colour = colour;
+    measured.x = curve.height_um;
+    measured.y = curve.contrast;
+    if (!curve.fitted.empty()) {
+      Series fitted;
+      fitted.style = SeriesStyle::Line;
+      fitted.colour = colour;
+      fitted.legend = false;
+      fitted.x = curve.fitted_height_um;
+      fitted.y = curve.fitted;
+      series.push_back(std::move(fitted));
     }
+    series.push_back(std::move(measured));
+    ++colour;
   }
   contrast_->setContent(std::move(series));
 }

@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "core/imaging/contrast_curve.h"
 #include "widgets/pages/page.h"
 
 class QComboBox;
@@ -48,6 +49,8 @@ class FiducialCalibratePage : public Page {
   RowsModel* circles_;
   Callout* circles_verdict_;
   Plot* contrast_;
+  std::shared_ptr<const StoredEvaluation> curves_of_;  ///< whose curves those are
+  std::vector<ContrastCurve> curves_;
   QTabWidget* tabs_;
   QComboBox* fiducial_;
   QComboBox* check_kind_;

@@ -51,8 +51,7 @@ Cell parameterCell(double value, double sigma, std::string_view unit) {
 }  // namespace
 
 NineParameterPage::NineParameterPage(PageContext page_context, QWidget* parent)
-    : Page(std::move(page_context), StepId::Model, parent),
-      options_(session(), context().undo, option_keys::nine_parameters, [this] {
+    : Page(std::move(page_context), StepId::Model, parent), options_(session(), context().undo, [this] {
         refresh();
         runAlone("fit");
       }) {
@@ -139,17 +138,19 @@ NineParameterPage::NineParameterPage(PageContext page_context, QWidget* parent)
 
   connect(fit_button_, &QPushButton::clicked, this, [this] { runTask("fit"); });
   connect(state_, &QComboBox::activated, this, [this](int) {
-    options_.change(tr("choose state"), {{"state", state_->currentText().toStdString()}});
+    options_.change(tr("choose state"),
+                    [this](NineParameterChoice& o) { o.state = state_->currentText().toStdString(); });
   });
   connect(robust_, &QComboBox::activated, this, [this](int index) {
-    options_.change(tr("treat outliers"), {{"robust", index}});
+    options_.change(tr("treat outliers"),
+                    [index](NineParameterChoice& o) { o.robust = static_cast<RobustLoss>(index); });
   });
   connect(points_, &RowsModel::checkedChanged, this, [this](const QString&, int, bool) {
-    nlohmann::json chosen = nlohmann::json::array();
+    std::vector<std::string> chosen;
     for (const Row& row : points_->rows()) {
       if (row.cells[0].checked.value_or(false)) chosen.push_back(row.id.toStdString());
     }
-    options_.change(tr("choose points"), {{"points", chosen}});
+    options_.change(tr("choose points"), [&](NineParameterChoice& o) { o.points = chosen; });
   });
   connect(component_, &Segments::chosen, this, &NineParameterPage::showField);
   connect(tabs_, &QTabWidget::currentChanged, this, &NineParameterPage::showField);
@@ -174,7 +175,7 @@ NineParameterPage::NineParameterPage(PageContext page_context, QWidget* parent)
 }
 
 NineParameterOptions NineParameterPage::options() const {
-  return nineParameterOptions(options_.json());
+  return options_.now().options();
 }
 
 void NineParameterPage::refresh() {

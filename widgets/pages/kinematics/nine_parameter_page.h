@@ -21,6 +21,7 @@ namespace spindrift::gui {
 class NumberTile;
 class RowsModel;
 class Segments;
+struct FieldStyle;
 class View3D;
 
 class NineParameterPage : public Page {
@@ -43,11 +44,10 @@ class NineParameterPage : public Page {
   void fillPoints();
   void showFit();
   void showField();
-  void showDifference(const NineParameterComparison& comparison);
+  void showDifference();
+  void showMap(const ComponentMap& map, double largest_um, const FieldStyle& style);
   void showComparison();
   [[nodiscard]] NineParameterOptions options() const;
-  /// The table with the level of the fitted points; a machine without X or Y has none, and the view says so.
-  [[nodiscard]] std::optional<FieldGrid> mapGrid();
 
   static constexpr std::array<Component, 3> shown_components{Component::EX, Component::EY, Component::EZ};
 
@@ -73,7 +73,7 @@ class NineParameterPage : public Page {
   QCheckBox* higher_;  ///< draw the model of higher order; enabled where the evidence asks for one
   std::shared_ptr<const NineParameterResult> result_;
   std::shared_ptr<const Field> field_;
-  BoundOptions options_;
+  BoundOptions<NineParameterChoice> options_;
 };
 
 }  // namespace spindrift::gui

@@ -38,7 +38,7 @@ const std::array<const char*, 3> group_units{"µm", "µrad", "µm/m"};
 QString weakText(const Eigen::VectorXd& combination, const std::vector<std::string>& names) {
   std::vector<std::string> titles;
   for (const std::string& name : names) titles.push_back(parameterTitle(name).toStdString());
-  return coreSentence(combinationText(combination, titles)).replace(QLatin1Char('-'), QChar(0x2212));
+  return shownNumbers(QString::fromStdString(combinationText(combination, titles)));
 }
 
 }  // namespace
@@ -46,7 +46,7 @@ QString weakText(const Eigen::VectorXd& combination, const std::vector<std::stri
 CycleModelPage::CycleModelPage(PageContext page_context, QWidget* parent)
     : Page(std::move(page_context), StepId::Model, parent),
       results_(TouchResults::of(session())),
-      options_(session(), context().undo, option_keys::cycles, [this] {
+      options_(session(), context().undo, [this] {
         refresh();
         if (session().state("fit").there) runAlone("fit");
       }) {
@@ -129,10 +129,10 @@ void CycleModelPage::refresh() {
   const bool holes = artefact != nullptr && artefact->kind == "hole_bar";
   right_->setCurrentIndex(holes ? 1 : 0);
   options_.fill([this] {
-    const nlohmann::json json = options_.json();
-    second_axis_->setChecked(json.value("second_axis", false));
-    growth_->setValue(json.value("growth_um_per_m", 0.0));
-    trust_->setValue(json.value("trust_um_per_m", 0.1));
+    const CycleChoice now = options_.now();
+    second_axis_->setChecked(now.second_axis);
+    growth_->setValue(now.growth_um_per_m);
+    trust_->setValue(now.trust_um_per_m);
     growth_->setEnabled(second_axis_->isChecked());
     trust_->setEnabled(second_axis_->isChecked());
   });

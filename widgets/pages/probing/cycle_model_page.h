@@ -77,7 +77,7 @@ class CycleModelPage : public Page {
   QDoubleSpinBox* growth_;
   QDoubleSpinBox* trust_;
   RowsModel* bias_;
-  BoundOptions options_;
+  BoundOptions<CycleChoice> options_;
 };
 
 }  // namespace spindrift::gui

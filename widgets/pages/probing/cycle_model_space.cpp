@@ -100,13 +100,13 @@ QWidget* CycleModelPage::makeBarPart() {
   bias_ = new RowsModel({tr("Parameter"), tr("Change per 10⁻⁶"), tr("Unit")}, this);
   card->body()->addWidget(makeTable(bias_, tr("Bias by the second axis"), tr("The bias appears after the fit.")), 3);
   connect(second_axis_, &QCheckBox::toggled, this, [this](bool on) {
-    options_.change(tr("extend by the second axis"), {{"second_axis", on}});
+    options_.change(tr("extend by the second axis"), [on](CycleChoice& o) { o.second_axis = on; });
   });
   connect(growth_, &QDoubleSpinBox::editingFinished, this, [this] {
-    options_.change(tr("growth of the bar"), {{"growth_um_per_m", growth_->value()}});
+    options_.change(tr("growth of the bar"), [this](CycleChoice& o) { o.growth_um_per_m = growth_->value(); });
   });
   connect(trust_, &QDoubleSpinBox::editingFinished, this, [this] {
-    options_.change(tr("uncertainty of the bar"), {{"trust_um_per_m", trust_->value()}});
+    options_.change(tr("uncertainty of the bar"), [this](CycleChoice& o) { o.trust_um_per_m = trust_->value(); });
   });
   return card;
 }
@@ -200,7 +200,7 @@ void CycleModelPage::showBar() {
   line_->setLeastRange(0.5);
   line_->setContent({rms, largest});
   std::vector<Row> rows;
-  const SecondAxisBias bias = secondAxisBias(holes, evaluation_->touches);
+  const SecondAxisBias& bias = holes.bias;
   for (std::size_t p = 0; p < bias.names.size(); ++p) {
     Row row;
     row.id = fromCore(bias.names[p]);

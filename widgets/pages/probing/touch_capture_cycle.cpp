@@ -22,7 +22,6 @@ void TouchCapturePage::showScene() {
   const Artefact* a = artefact();
   if (campaign == nullptr || a == nullptr) return;
   const auto list = results_.touches();
-  const auto evaluation = results_.last();
   const std::vector<TouchVerdict> verdicts = verdictsOf(cycle_);
   const QStringList chosen = selectedTouches();
   const TouchVerdict* selected = nullptr;
@@ -31,7 +30,7 @@ void TouchCapturePage::showScene() {
   }
   const double c_deg = selected != nullptr ? selected->touch.c_deg : 0.0;
   const Eigen::Vector3d first_ball =
-      firstBallPosition(*a, list.get(), evaluation.get()).value_or(Eigen::Vector3d::Zero());
+      firstBallPosition(*a, list.get(), evaluation_.get()).value_or(Eigen::Vector3d::Zero());
   std::vector<ViewShape> shapes;
   try {
     addArtefact(shapes, campaign->machine, *a, first_ball, c_deg);
@@ -58,7 +57,7 @@ void TouchCapturePage::makeProgram() {
   const Artefact* a = artefact();
   if (campaign == nullptr || a == nullptr) return;
   CyclePlanOptions plan;
-  const auto ball = firstBallPosition(*a, results_.touches().get(), results_.last().get());
+  const auto ball = firstBallPosition(*a, results_.touches().get(), evaluation_.get());
   if (a->kind == "balls") {
     if (!ball) {
       program_verdict_->show(

@@ -138,10 +138,6 @@ void TouchCapturePage::runAll() {
   makeProgram();
 }
 
-void TouchCapturePage::take(const TaskGiven& given) {
-  if (auto evaluation = given.result.as<TouchEvaluation>()) results_.set(given.inputs, std::move(evaluation));
-}
-
 TaskInputs TouchCapturePage::taskInputs() {
   TaskInputs inputs = session().taskInputs();
   inputs.touches = results_.touches();
@@ -170,14 +166,13 @@ void TouchCapturePage::refresh() {
     view_->setMachineVisible(machine_->isChecked());
   }
   forgetOldProgram();
-  // What another page has evaluated since may be of other inputs.
-  if (const ResultState check = session().state("check"); (other ? check.there : check.current) && !results_.current())
-    showAgain(tr("Reading the touches"), "check");
-  const auto evaluation = results_.last();
-  judged_ = evaluation != nullptr;
+  const ShownTask check = shown("check", tr("Reading the touches"));
+  const ResultState& state = check.state;
+  evaluation_ = check.as<TouchEvaluation>();
+  judged_ = evaluation_ != nullptr;
   verdicts_.clear();
   if (judged_) {
-    verdicts_ = allVerdicts(*evaluation);
+    verdicts_ = allVerdicts(*evaluation_);
   } else {
     for (const Touch& t : list->touches) {
       TouchVerdict v;
@@ -186,7 +181,6 @@ void TouchCapturePage::refresh() {
     }
   }
   fillCycles();
-  const ResultState state = session().state("check");
   const auto count = [&](TouchState s) {
     return std::count_if(verdicts_.begin(), verdicts_.end(), [s](const TouchVerdict& v) { return v.state == s; });
   };
@@ -198,12 +192,12 @@ void TouchCapturePage::refresh() {
     bad << fromCore(v.touch.cycle + " " + v.touch.feature + " · " + std::to_string(v.touch.touch));
   }
   callout()->setAction({}, {});
-  if (!judged_) {
+  if (state.there && !state.current) {
+    callout()->show(Tone::Outdated, tr("Changed since: %1. Check the touches again.").arg(state.changed));
+  } else if (!judged_) {
     callout()->show(Tone::Accent, tr("%n touches are there and none is checked yet. Checking compares every touch "
                                      "with all others and says which to take again.",
                                      nullptr, static_cast<int>(verdicts_.size())));
-  } else if (!state.current || !results_.current()) {
-    callout()->show(Tone::Outdated, tr("Changed since: %1. Check the touches again.").arg(state.changed));
   } else if (first_bad != nullptr) {
     callout()->setAction(tr("Show it"),
                          [this, cycle = fromCore(first_bad->touch.cycle), id = fromCore(first_bad->touch.id())] {

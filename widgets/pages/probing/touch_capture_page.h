@@ -37,7 +37,6 @@ class TouchCapturePage : public Page {
   [[nodiscard]] QString pickedItem() const override { return selectedTouches().value(0); }
 
  private:
-  void take(const TaskGiven& given) override;
   [[nodiscard]] TaskInputs taskInputs() override;
   void fillCycles();
   void fillTouches();
@@ -50,6 +49,7 @@ class TouchCapturePage : public Page {
   [[nodiscard]] const Artefact* artefact() const;
 
   TouchResults& results_;
+  std::shared_ptr<const TouchEvaluation> evaluation_;  ///< that is shown; null: the bare list
   std::vector<TouchVerdict> verdicts_;
   bool judged_ = false;  ///< verdicts come from an evaluation, not from the bare list
   QString cycle_;

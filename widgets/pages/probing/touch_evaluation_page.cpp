@@ -12,7 +12,6 @@
 
 #include "core/base/text.h"
 #include "core/base/units.h"
-#include "core/probing/closed_forms.h"
 #include "core/workflows/evaluate_campaign.h"
 #include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
@@ -117,10 +116,6 @@ TouchEvaluationPage::TouchEvaluationPage(PageContext page_context, QWidget* pare
   connect(evaluate_, &QPushButton::clicked, this, [this] { runTask("evaluate"); });
   connect(cycle_, &QComboBox::activated, this, &TouchEvaluationPage::showFeatures);
   connect(point_, &QComboBox::activated, this, &TouchEvaluationPage::showDeviations);
-}
-
-void TouchEvaluationPage::take(const TaskGiven& given) {
-  if (const auto detail = given.result.as<EvaluationDetail>()) results_.set(given.inputs, detail->touches);
 }
 
 TaskInputs TouchEvaluationPage::taskInputs() {
@@ -327,7 +322,6 @@ void TouchEvaluationPage::showComparison() {
     return standard_uncertainty > 0.0 ? quantityCell(value, standard_uncertainty) : numberCell(value, 1);
   };
   std::vector<Row> rows;
-  const MachineDescription& machine = session().campaign()->machine;
   if (!details_.touches->hole_cycles.empty()) {
     const HoleCycleResult& holes = details_.touches->hole_cycles.front();
     tabs_->setTabText(3, tr("Certificate"));
@@ -368,7 +362,7 @@ void TouchEvaluationPage::showComparison() {
     comparison_->setHeaders({tr("Cycle"), tr("Ball"), tr("Closed forms X, Y, Z / µrad"),
                              tr("Joint evaluation X, Y, Z / µrad"), tr("Stylus 0 moved / µm"), tr("Joint drift / µm")});
     double off_urad = 0.0;
-    for (const HeadComparison& c : closedFormsBeside(details_.touches->ball_cycles.front(), machine)) {
+    for (const HeadComparison& c : details_.touches->ball_cycles.front().closed_forms) {
       Row row;
       row.id = fromCore(c.cycle + "/" + c.ball);
       QStringList closed;

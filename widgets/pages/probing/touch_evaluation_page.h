@@ -37,7 +37,6 @@ class TouchEvaluationPage : public Page {
 
  private:
   /// What a job finds beside the stored result.
-  void take(const TaskGiven& given) override;
   [[nodiscard]] TaskInputs taskInputs() override;
   void clear();
   void showTiles(const CycleEvaluation& cycles);

@@ -44,8 +44,7 @@ void saveCopy(const std::filesystem::path& html, const std::filesystem::path& pd
 }  // namespace
 
 ReportPage::ReportPage(PageContext page_context, QWidget* parent)
-    : Page(std::move(page_context), StepId::Report, parent),
-      options_(session(), context().undo, option_keys::report, [this] {
+    : Page(std::move(page_context), StepId::Report, parent), options_(session(), context().undo, [this] {
         context().workflow.refresh();
         refresh();
       }) {
@@ -75,7 +74,7 @@ ReportPage::ReportPage(PageContext page_context, QWidget* parent)
   left->body()->addWidget(discrepancy_);
   connect(discrepancy_, &QCheckBox::clicked, this, [this](bool tell) {
     options_.change(tell ? tr("include the discrepancy analysis") : tr("omit the discrepancy analysis"),
-                    {{"tells_discrepancy", tell}});
+                    [tell](ReportChoice& o) { o.tells_discrepancy = tell; });
   });
   facts_ = makeLabel({}, "secondaryText");
   facts_->setWordWrap(true);

@@ -56,7 +56,7 @@ class ReportPage : public Page {
   void keepOperator();
   [[nodiscard]] std::filesystem::path storedFile(const char* key);
 
-  BoundOptions options_;
+  BoundOptions<ReportChoice> options_;
   QPushButton* write_;
   QPushButton* browser_;
   QPushButton* save_pdf_;

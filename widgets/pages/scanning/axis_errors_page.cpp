@@ -69,7 +69,7 @@ double cycleDuration(const ScanEvaluation& evaluation) {
 AxisErrorsPage::AxisErrorsPage(PageContext page_context, QWidget* parent)
     : Page(std::move(page_context), StepId::Model, parent),
       results_(ScanResults::of(session())),
-      options_(session(), context().undo, option_keys::scan_model, [this] {
+      options_(session(), context().undo, [this] {
         refresh();
         if (session().state("fit").there) runAlone("fit");
       }) {
@@ -118,32 +118,26 @@ AxisErrorsPage::AxisErrorsPage(PageContext page_context, QWidget* parent)
   connect(fit_, &QPushButton::clicked, this, [this] { runTask("fit"); });
   connect(model_, &Segments::chosen, this, &AxisErrorsPage::chooseModel);
   const auto again = [this] {
-    if (const auto evaluation = results_.last(chosenModel())) show(*evaluation);
+    if (evaluation_ != nullptr) show(*evaluation_);
   };
   connect(component_, &Segments::chosen, this, again);
   connect(over_, &Segments::chosen, this, again);
 }
 
 std::string AxisErrorsPage::chosenModel() const {
-  const nlohmann::json stored = options_.json();
-  const std::string model = stored.is_string() ? stored.get<std::string>() : std::string();
+  const std::string model = options_.now().model;
   return model.empty() ? results_.modelOfMachine() : model;
 }
 
 void AxisErrorsPage::chooseModel(int index) {
   const std::string model = models[static_cast<std::size_t>(index)];
-  if (model != chosenModel()) options_.change(tr("choose the scan model"), model);
+  if (model != chosenModel())
+    options_.change(tr("choose the scan model"), [&](ScanModelChoice& o) { o.model = model; });
 }
 
 void AxisErrorsPage::setComponent(int index) {
   component_->setCurrent(index);
-  if (const auto evaluation = results_.last(chosenModel())) show(*evaluation);
-}
-
-void AxisErrorsPage::take(const TaskGiven& given) {
-  const auto model = given.origin.options.at("scan_model").get<std::string>();
-  if (auto evaluation = given.result.as<ScanEvaluation>())
-    results_.set(given.inputs, model.empty() ? results_.modelOfMachine() : model, std::move(evaluation));
+  if (evaluation_ != nullptr) show(*evaluation_);
 }
 
 void AxisErrorsPage::clear() {
@@ -156,6 +150,7 @@ void AxisErrorsPage::clear() {
 void AxisErrorsPage::refresh() {
   if (session().campaign() == nullptr) return;
   if (noticeCampaign()) {
+    evaluation_ = nullptr;
     clear();
   }
   model_->setCurrent(chosenModel() == models[1] ? 1 : 0);
@@ -167,19 +162,18 @@ void AxisErrorsPage::refresh() {
     callout()->setAction(tr("Go to Calibrate"), [this] { context().workflow.goTo(StepId::Calibrate); });
     return;
   }
-  const ResultState state = session().state("fit");
+  const ShownTask stored = shown("fit", tr("Reading the six errors"));
+  const ResultState& state = stored.state;
   if (!state.there) {
     clear();
     callout()->show(Tone::Accent, tr("Press Find the six errors. They hold at the origin of the slide, far from the "
                                      "artefact: the levers of the machine carry the rotations there."));
     return;
   }
-  const auto evaluation = results_.last(chosenModel());
-  if (state.current && !results_.current(chosenModel())) {
-    showAgain(tr("Reading the six errors"), "fit");
-    return;
-  }
-  if (evaluation == nullptr) {
+  if (stored.reading) return;
+  const auto found = stored.as<AxisErrorResult>();
+  evaluation_ = found == nullptr ? nullptr : found->scans;
+  if (evaluation_ == nullptr) {
     clear();
     callout()->show(Tone::Outdated, tr("Changed since: %1. Find the errors again.").arg(state.changed));
     return;
@@ -192,9 +186,9 @@ void AxisErrorsPage::refresh() {
                                          .arg(model_->button(model_->current() == 0 ? 1 : 0)->text().toLower()));
   } else {
     callout()->show(Tone::Good, tr("%n scans, six errors each, relative to the first scan of their artefact.", nullptr,
-                                   static_cast<int>(evaluation->scans.size())));
+                                   static_cast<int>(evaluation_->scans.size())));
   }
-  show(*evaluation);
+  show(*evaluation_);
 }
 
 void AxisErrorsPage::show(const ScanEvaluation& evaluation) {

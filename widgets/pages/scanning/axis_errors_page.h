@@ -41,7 +41,6 @@ class AxisErrorsPage : public Page {
 
  private:
   [[nodiscard]] std::string chosenModel() const;
-  void take(const TaskGiven& given) override;
   void chooseModel(int index);
   void clear();
   void show(const ScanEvaluation& evaluation);
@@ -49,6 +48,7 @@ class AxisErrorsPage : public Page {
   void showObservability(const ScanEvaluation& evaluation);
 
   ScanResults& results_;
+  std::shared_ptr<const ScanEvaluation> evaluation_;  ///< that is shown
   QPushButton* fit_;
   Segments* model_;
   Segments* component_;
@@ -58,7 +58,7 @@ class AxisErrorsPage : public Page {
   QTabWidget* tabs_;
   RowsModel* values_;
   RowsModel* observability_;
-  BoundOptions options_;
+  BoundOptions<ScanModelChoice> options_;
 };
 
 }  // namespace spindrift::gui

@@ -17,13 +17,12 @@
 #include "widgets/models/cells.h"
 #include "widgets/models/rows_model.h"
 #include "widgets/plots/plot.h"
-#include "widgets/services/scan_results.h"
 #include "widgets/theme/numbers.h"
 
 namespace spindrift::gui {
 
 ProfilerCalibrationPage::ProfilerCalibrationPage(PageContext page_context, QWidget* parent)
-    : Page(std::move(page_context), StepId::Calibrate, parent), results_(ScanResults::of(session())) {
+    : Page(std::move(page_context), StepId::Calibrate, parent) {
   setInstruction(tr("Find where the profiler sits in the tool frame, and register every scan onto the first one."));
   evaluate_ = makeButton(tr("Evaluate the scans"), nullptr, "primary");
   addAction(evaluate_);
@@ -68,11 +67,6 @@ ProfilerCalibrationPage::ProfilerCalibrationPage(PageContext page_context, QWidg
   connect(evaluate_, &QPushButton::clicked, this, [this] { runTask("evaluate"); });
 }
 
-void ProfilerCalibrationPage::take(const TaskGiven& given) {
-  if (const auto detail = given.result.as<EvaluationDetail>())
-    results_.set(given.inputs, results_.modelOfMachine(), detail->scans);
-}
-
 void ProfilerCalibrationPage::clear() {
   for (RowsModel* rows : {calibration_, registrations_, rejected_}) rows->setRows({});
   residuals_->setContent({});
@@ -92,15 +86,18 @@ void ProfilerCalibrationPage::refresh() {
                                      "evaluated."));
     return;
   }
-  const ResultState state = session().state("evaluate");
+  const ShownTask shown_now = shown("evaluate", tr("Reading the evaluation"));
+  const ResultState& state = shown_now.state;
+  const auto detail = shown_now.as<EvaluationDetail>();
   if (!state.current) {
     callout()->show(Tone::Outdated, tr("Changed since this was evaluated: %1. Evaluate again.").arg(state.changed));
   } else if (!stored->good_enough || !stored->warnings.empty()) {
     QStringList sentences;
-    for (const std::string& w : stored->warnings) {
-      // What the calibration cannot determine stands beside its numbers.
-      if (w.rfind("Calibration of the profiler", 0) != 0) sentences << coreSentence(w);
-    }
+    // What the calibration cannot determine stands beside its numbers.
+    for (const std::string& w : stored->warnings)
+      if (detail == nullptr || detail->scans == nullptr ||
+          w != calibrationWarning(detail->scans->mounting.calibration))
+        sentences << coreSentence(w);
     if (sentences.isEmpty()) {
       callout()->show(Tone::Good, tr("Deviations found: %1; see what the calibration cannot determine.")
                                       .arg(static_cast<int>(stored->observations.rows.size())));
@@ -113,12 +110,9 @@ void ProfilerCalibrationPage::refresh() {
     callout()->show(Tone::Good,
                     tr("Deviations found: %1, no warnings.").arg(static_cast<int>(stored->observations.rows.size())));
   }
-  const auto evaluation = results_.last(results_.modelOfMachine());
-  if (state.current && !results_.current(results_.modelOfMachine()))
-    return showAgain(tr("Reading the evaluation"), "evaluate");
-  if (evaluation == nullptr) return;
-  showCalibration(*evaluation);
-  showScans(*evaluation);
+  if (detail == nullptr || detail->scans == nullptr) return;
+  showCalibration(*detail->scans);
+  showScans(*detail->scans);
 }
 
 void ProfilerCalibrationPage::showCalibration(const ScanEvaluation& evaluation) {

@@ -16,7 +16,6 @@ namespace spindrift::gui {
 class NumberTile;
 class Plot;
 class RowsModel;
-class ScanResults;
 
 class ProfilerCalibrationPage : public Page {
   Q_OBJECT
@@ -31,12 +30,10 @@ class ProfilerCalibrationPage : public Page {
   [[nodiscard]] Plot* residuals() const { return residuals_; }
 
  private:
-  void take(const TaskGiven& given) override;
   void clear();
   void showCalibration(const ScanEvaluation& evaluation);
   void showScans(const ScanEvaluation& evaluation);
 
-  ScanResults& results_;
   QPushButton* evaluate_;
   NumberTile* rim_;
   NumberTile* plane_;

@@ -37,8 +37,7 @@ constexpr std::array<const char*, 3> methods{"response", "arx", "oe"};
 }  // namespace
 
 ThermalModelPage::ThermalModelPage(PageContext page_context, QWidget* parent)
-    : Page(std::move(page_context), StepId::Model, parent),
-      options_(session(), context().undo, option_keys::thermal, [this] { refresh(); }) {
+    : Page(std::move(page_context), StepId::Model, parent), options_(session(), context().undo, [this] { refresh(); }) {
   setInstruction(tr("Train a model over time on one part of the log and judge it in free run on another."));
   identify_ = makeButton(tr("Identify the model"), nullptr, "primary");
   addModelSwitch(false);
@@ -103,10 +102,12 @@ QWidget* ThermalModelPage::makeChoices() {
     });
   }
   connect(output_, &QComboBox::activated, this, [this](int) {
-    options_.change(tr("choose the output"), {{"output", output_->currentText().toStdString()}});
+    options_.change(tr("choose the output"),
+                    [this](ThermalChoice& o) { o.output = output_->currentText().toStdString(); });
   });
   connect(method_, &QComboBox::activated, this, [this](int index) {
-    options_.change(tr("choose the method"), {{"method", methods[static_cast<std::size_t>(index)]}});
+    options_.change(tr("choose the method"),
+                    [index](ThermalChoice& o) { o.method = methods[static_cast<std::size_t>(index)]; });
   });
   return box;
 }
@@ -163,12 +164,12 @@ QWidget* ThermalModelPage::makeDetails() {
   card->body()->addWidget(tabs_, 1);
   connect(step_input_, &QComboBox::activated, this, &ThermalModelPage::showStep);
   connect(inputs_, &RowsModel::checkedChanged, this, [this](const QString&, int, bool) {
-    nlohmann::json chosen = nlohmann::json::array();
+    std::vector<std::string> chosen;
     for (const Row& row : inputs_->rows()) {
       if (row.cells[0].checked.value_or(false)) chosen.push_back(row.id.toStdString());
     }
     if (chosen.empty()) return fillInputs();  // a model without inputs is none
-    options_.change(tr("choose the inputs"), {{"inputs", chosen}});
+    options_.change(tr("choose the inputs"), [&](ThermalChoice& o) { o.inputs = chosen; });
   });
   return card;
 }
@@ -180,11 +181,13 @@ void ThermalModelPage::changeRange(bool train, double from_s, double to_s) {
   from_s = std::clamp(std::round(from_s), first, last);
   to_s = std::clamp(std::round(to_s), first, last);
   if (!(to_s > from_s)) return refresh();
-  options_.change(train ? tr("training range") : tr("test range"), {{train ? "train" : "test", {from_s, to_s}}});
+  options_.change(train ? tr("training range") : tr("test range"), [&](ThermalChoice& o) {
+    (train ? o.train : o.test) = TimeRange{from_s, to_s};
+  });
 }
 
 IdentifyRequest ThermalModelPage::request() const {
-  return series_ == nullptr ? IdentifyRequest() : identifyRequest(options_.json(), *series_);
+  return series_ == nullptr ? IdentifyRequest() : options_.now().request(*series_);
 }
 
 std::string ThermalModelPage::inputsKey() {

@@ -88,7 +88,7 @@ class ThermalModelPage : public Page {
   Callout* whiteness_;
   UpdatePanel* updates_;
   IsoPanel* iso_;
-  BoundOptions options_;
+  BoundOptions<ThermalChoice> options_;
 };
 
 }  // namespace spindrift::gui

@@ -133,11 +133,7 @@ void ThermalModelPage::showSeries() {
     }
     series_plot_->setAxes(tr("Time / h"), tr("Part of its range"));
   } else {
-    if (fits) {
-      std::vector<double> residual(result_->measured.size());
-      for (std::size_t i = 0; i < residual.size(); ++i) residual[i] = result_->measured[i] - result_->predicted[i];
-      series.push_back(measured(tr("Measured minus predicted"), residual));
-    }
+    if (fits) series.push_back(measured(tr("Measured minus predicted"), result_->left));
     series_plot_->setAxes(tr("Time / h"), tr("Residual / %1").arg(outputUnit()));
   }
   std::vector<Span> spans{

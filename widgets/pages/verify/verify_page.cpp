@@ -66,7 +66,7 @@ QString wordOf(VerifyVerdict verdict) {
 
 VerifyPage::VerifyPage(PageContext page_context, QWidget* parent)
     : Page(std::move(page_context), StepId::Verify, parent),
-      options_(session(), context().undo, option_keys::verify, [this] { refresh(); }) {
+      options_(session(), context().undo, [this] { refresh(); }) {
   compare_ = makeButton(tr("Compare before and after"), nullptr, "primary");
   addAction(compare_);
   content()->addWidget(makeChoices());
@@ -177,35 +177,34 @@ QWidget* VerifyPage::makeChoices() {
   criterion_->addItems({tr("largest value"), tr("rms")});
   criterion->addWidget(criterion_);
   connect(after_, &QComboBox::activated, this, [this](int) {
-    options_.change(tr("choose the second campaign"), {{"after", after_->currentData().toString().toStdString()}});
+    options_.change(tr("choose the second campaign"),
+                    [this](VerifyOptions& o) { o.after = after_->currentData().toString().toStdString(); });
   });
   connect(choose, &QPushButton::clicked, this, [this] {
     const QString folder = QFileDialog::getExistingDirectory(this, tr("Campaign measured with the compensation on"));
     if (!folder.isEmpty()) setAfter(folder);
   });
   connect(goal_um_, &QDoubleSpinBox::valueChanged, this, [this](double value) {
-    options_.change(tr("set the goal"), {{"goal_um", value}});
+    options_.change(tr("set the goal"), [value](VerifyOptions& o) { o.request.goal_um = value; });
   });
   connect(goal_urad_, &QDoubleSpinBox::valueChanged, this, [this](double value) {
-    options_.change(tr("set the goal"), {{"goal_urad", value}});
+    options_.change(tr("set the goal"), [value](VerifyOptions& o) { o.request.goal_urad = value; });
   });
   connect(criterion_, &QComboBox::activated, this, [this](int index) {
-    options_.change(tr("choose what the goal bounds"), {{"criterion", index == 1 ? "rms" : "largest"}});
+    options_.change(tr("choose what the goal bounds"), [index](VerifyOptions& o) {
+      o.request.criterion = index == 1 ? VerifyCriterion::Rms : VerifyCriterion::Largest;
+    });
   });
   return box;
 }
 
-nlohmann::json VerifyPage::optionsJson() const {
-  return VerifyOptions::of(*session().session(), session().campaignId()).json();
-}
-
 void VerifyPage::setAfter(const QString& folder) {
-  options_.change(tr("choose the second campaign"), {{"after", folder.toStdString()}});
+  options_.change(tr("choose the second campaign"), [&](VerifyOptions& o) { o.after = folder.toStdString(); });
 }
 
 void VerifyPage::fillChoices() {
-  const nlohmann::json now = optionsJson();
-  const QString chosen = fromCore(now["after"].get<std::string>());
+  const VerifyOptions now = options_.now();
+  const QString chosen = fromCore(now.after);
   after_->clear();
   after_->addItem(tr("this campaign, while compensating"), fromCore(session().campaign()->folder.string()));
   for (const CampaignRecord& record : session().campaigns()) {
@@ -214,13 +213,13 @@ void VerifyPage::fillChoices() {
   if (!chosen.isEmpty() && after_->findData(chosen) < 0) after_->addItem(QFileInfo(chosen).fileName(), chosen);
   after_->setCurrentIndex(chosen.isEmpty() ? -1 : after_->findData(chosen));
   after_->setPlaceholderText(tr("choose a campaign"));
-  goal_um_->setValue(now["goal_um"].get<double>());
-  goal_urad_->setValue(now["goal_urad"].get<double>());
-  criterion_->setCurrentIndex(now["criterion"] == "rms" ? 1 : 0);
+  goal_um_->setValue(now.request.goal_um);
+  goal_urad_->setValue(now.request.goal_urad);
+  criterion_->setCurrentIndex(now.request.criterion == VerifyCriterion::Rms ? 1 : 0);
 }
 
 void VerifyPage::runAll() {
-  if (!optionsJson()["after"].get<std::string>().empty()) runTask("verify");
+  if (!options_.now().after.empty()) runTask("verify");
 }
 
 void VerifyPage::refresh() {
@@ -231,8 +230,7 @@ void VerifyPage::refresh() {
     showResult();
   }
   options_.fill([this] { fillChoices(); });
-  const nlohmann::json now = optionsJson();
-  const bool chosen = !now["after"].get<std::string>().empty();
+  const bool chosen = !options_.now().after.empty();
   const bool measured = session().observations() != nullptr;
   compare_->setEnabled(chosen && measured && canRun("verify"));
   const ShownTask stored = shown("verify", tr("Reading the comparison"));

@@ -42,7 +42,6 @@ class VerifyPage : public Page {
 
  private:
   [[nodiscard]] QWidget* makeChoices();
-  [[nodiscard]] nlohmann::json optionsJson() const;
   void fillChoices();
   void showResult();
   /// Curves and table of the points, of the component that is chosen.
@@ -67,7 +66,7 @@ class VerifyPage : public Page {
   QStackedWidget* stack_;
   Plot* plot_;
   VerifyMaps* maps_;
-  BoundOptions options_;
+  BoundOptions<VerifyOptions> options_;
 };
 
 }  // namespace spindrift::gui

@@ -462,7 +462,7 @@ void EffectsPanel::filter() {
 void EffectsPanel::switched() {
   switch_queued_ = false;
   EffectOptions after = session_.effects();
-  const nlohmann::json before = after.json();
+  const nlohmann::json before = optionsJson(after);
   QStringList off;
   QStringList on;
   for (int f = 0; f < tree_->topLevelItemCount(); ++f) {
@@ -475,7 +475,7 @@ void EffectsPanel::switched() {
       (considered ? on : off) << effectTitle(id);
     }
   }
-  if (after.json() == before) return;
+  if (optionsJson(after) == before) return;
   const QString what = !off.isEmpty() && !on.isEmpty() ? tr("switch effects on and off")
                        : off.size() == 1               ? tr("leave out %1").arg(off.front())
                        : on.size() == 1                ? tr("consider %1 again").arg(on.front())

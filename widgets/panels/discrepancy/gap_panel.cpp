@@ -6,17 +6,16 @@
 #include <QHBoxLayout>
 #include <QScrollArea>
 #include <QSlider>
-#include <QTimer>
 #include <QVBoxLayout>
 #include <algorithm>
 #include <cmath>
 
 #include "core/machine/driver_words.h"
+#include "core/workflows/residual_map.h"
 #include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
 #include "widgets/panels/common/effect_titles.h"
 #include "widgets/panels/discrepancy/gap_bars.h"
-#include "widgets/panels/discrepancy/residual_map.h"
 #include "widgets/plots/plot.h"
 #include "widgets/theme/numbers.h"
 #include "widgets/theme/shown_units.h"
@@ -382,24 +381,23 @@ void GapPanel::showViews() {
   const ColourScale scale = ColourScale::symmetric(largest_, componentName(component), unit);
   for (View3D* view : views_) {
     view->setColourScale(scale);
+    view->setSelected(point_->currentText());
     view->setCaption(tr("%1, measured − model at %2").arg(componentName(component), when));
   }
-  // One thing at each turn of the event loop: points before, points after, then the fields between them.
-  ++views_asked_;
-  showSide(0, component, time_s, false);
-  const auto later = [this, component, time_s, asked = views_asked_](std::size_t side, bool field) {
-    if (asked == views_asked_ && discrepancy_ != nullptr && machine_) showSide(side, component, time_s, field);
-  };
-  QTimer::singleShot(0, this, [this, later] {
-    later(0, true);
-    QTimer::singleShot(0, this, [later] { later(1, true); });
+  maps_.ask([this, story = discrepancy_, machine = *machine_, component, time_s]() -> std::function<void()> {
+    std::array<ResidualMap, 2> maps{residualMap(*story, machine, component, time_s, false), {}};
+    if (!story->added.empty()) maps[1] = residualMap(*story, machine, component, time_s, true);
+    return [this, story, component, maps = std::move(maps)] {
+      if (story != discrepancy_) return;
+      for (std::size_t side = 0; side < maps.size(); ++side) showSide(side, component, maps[side]);
+    };
   });
 }
 
-void GapPanel::showSide(std::size_t side, Component component, double time_s, bool field) {
+void GapPanel::showSide(std::size_t side, Component component, const ResidualMap& map) {
   if (side == 1 && discrepancy_->added.empty()) return;
   std::vector<ViewPoint> points;
-  for (const Field::Marker& marker : residualsAt(*discrepancy_, component, time_s, side == 1)) {
+  for (const Field::Marker& marker : map.points) {
     ViewPoint p;
     p.id = p.label = QString::fromStdString(marker.point);
     p.position_mm = marker.position_mm;
@@ -414,9 +412,7 @@ void GapPanel::showSide(std::size_t side, Component component, double time_s, bo
   }
   views_[side]->setPoints(std::move(points));
   views_[side]->setSelected(point_->currentText());
-  if (field) {
-    views_[side]->setField(residualMap(*discrepancy_, *machine_, component, time_s, side == 1).field, FieldStyle{});
-  }
+  views_[side]->setField(map.field, FieldStyle{});
 }
 
 std::vector<Exportable> GapPanel::exportables() {

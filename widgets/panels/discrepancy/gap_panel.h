@@ -9,7 +9,9 @@
 
 #include "core/machine/machine_description.h"
 #include "core/workflows/discrepancy_story.h"
+#include "core/workflows/residual_map.h"
 #include "widgets/export/exportable.h"
+#include "widgets/jobs/latest_work.h"
 
 class QComboBox;
 class QGridLayout;
@@ -60,7 +62,7 @@ class GapPanel : public QWidget {
   void arrange();
   void userChose();
   void markMoment();
-  void showSide(std::size_t side, Component component, double time_s, bool field);
+  void showSide(std::size_t side, Component component, const ResidualMap& map);
   void showNoise();
   [[nodiscard]] const DiscrepancySeries* series() const;
 
@@ -82,8 +84,8 @@ class GapPanel : public QWidget {
   std::vector<double> moments_s_;
   double plot_second_ = 1.0;  ///< one second on the plots' axis of time
   bool views_stale_ = false;  ///< something changed while the panel was not in sight
-  int views_asked_ = 0;       ///< which request a field that comes later belongs to
   double largest_ = 0.0;      ///< of the maps of this component, before
+  LatestWork maps_;
 };
 
 }  // namespace spindrift::gui

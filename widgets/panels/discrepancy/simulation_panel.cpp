@@ -480,7 +480,7 @@ void SimulationPanel::showView(int index) {
       connect(maps_, &SimulationMaps::hovered, this, &SimulationPanel::hovered);
     }
     if (maps_stale_ && update() != nullptr) {
-      maps_->show(story_->rows, context_.session.campaign()->machine);
+      maps_->show(story_, context_.session.campaign()->machine);
       maps_stale_ = false;
     }
     stack_->setCurrentWidget(maps_);

@@ -102,21 +102,29 @@ SimulationMaps::SimulationMaps(QWidget* parent) : QWidget(parent) {
   views_[0]->link(views_[1]);
 }
 
-void SimulationMaps::show(const std::vector<DiscrepancyReportRow>& rows, const MachineDescription& machine) {
+void SimulationMaps::show(const std::shared_ptr<const SimulationStory>& story, const MachineDescription& machine) {
   shown_ = false;
   for (View3D* view : views_) view->clear();
-  const std::optional<FieldGrid> table = mapTable(machine, 0.0, report_map_nodes);
-  double time_s = 0.0;
-  const auto maps = table ? discrepancyMaps(rows, *table, time_s) : std::nullopt;
   for (std::size_t i = 0; i < 2; ++i) cards_[i]->setTitle(i == 0 ? tr("Before") : tr("After"));
-  if (!maps) return;
+  work_.ask([this, story, machine]() -> std::function<void()> {
+    const std::optional<FieldGrid> table = mapTable(machine, 0.0, report_map_nodes);
+    double time_s = 0.0;
+    auto maps = table ? discrepancyMaps(story->rows, *table, time_s) : std::nullopt;
+    if (!maps) return [] {};
+    const double last_s = story->rows.empty() ? time_s : std::max(time_s, story->rows.back().time_s);
+    return [this, maps = std::move(*maps), machine, time_s, last_s] { draw(maps, machine, time_s, last_s); };
+  });
+}
+
+void SimulationMaps::draw(const std::array<Field, 2>& maps, const MachineDescription& machine, double time_s,
+                          double last_s) {
   shown_ = true;
-  const Component component = (*maps)[0].component;
-  const TimeUnit unit = timeUnit(rows.empty() ? time_s : std::max(time_s, rows.back().time_s));
+  const Component component = maps[0].component;
+  const TimeUnit unit = timeUnit(last_s);
   const ColourScale scale =
-      ColourScale::symmetric((*maps)[0].largestMagnitude(), componentName(component), componentUnit(component));
+      ColourScale::symmetric(maps[0].largestMagnitude(), componentName(component), componentUnit(component));
   for (std::size_t i = 0; i < 2; ++i) {
-    const Field& field = (*maps)[i];
+    const Field& field = maps[i];
     cards_[i]->setTitle((i == 0 ? tr("Before: largest %1") : tr("After: largest %1"))
                             .arg(sizeText(field.largestMagnitude(), componentUnit(component))));
     views_[i]->setMachine(machine);

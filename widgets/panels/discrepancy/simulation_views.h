@@ -6,14 +6,18 @@
 #include <QWidget>
 #include <array>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "core/machine/field.h"
 #include "core/machine/machine_description.h"
 #include "core/reporting/series_gaps.h"
+#include "core/workflows/simulation_story.h"
 #include "widgets/export/exportable.h"
+#include "widgets/jobs/latest_work.h"
 
 class QComboBox;
 class QLabel;
@@ -50,7 +54,8 @@ class SimulationMaps : public QWidget {
   Q_OBJECT
  public:
   explicit SimulationMaps(QWidget* parent = nullptr);
-  void show(const std::vector<DiscrepancyReportRow>& rows, const MachineDescription& machine);
+  /// The maps are there a moment later.
+  void show(const std::shared_ptr<const SimulationStory>& story, const MachineDescription& machine);
   [[nodiscard]] bool empty() const { return !shown_; }
   [[nodiscard]] View3D* view(bool after) const { return views_[after ? 1 : 0]; }
   [[nodiscard]] std::vector<Exportable> exportables();
@@ -59,9 +64,13 @@ class SimulationMaps : public QWidget {
   void hovered(const QString& text);
 
  private:
+  /// Before and after, at `time_s`; the measurement ends at `last_s`.
+  void draw(const std::array<Field, 2>& maps, const MachineDescription& machine, double time_s, double last_s);
+
   std::array<Card*, 2> cards_{};
   std::array<View3D*, 2> views_{};
   bool shown_ = false;
+  LatestWork work_;
 };
 
 }  // namespace spindrift::gui

@@ -5,29 +5,15 @@
 
 #include <QWidget>
 #include <array>
-#include <optional>
 #include <string>
-#include <vector>
 
-#include "core/machine/field.h"
-#include "core/workflows/verify_compensation.h"
+#include "core/workflows/verify_map.h"
 
 class QComboBox;
 
 namespace spindrift::gui {
 
 class View3D;
-
-/// The values of one state and component, before (0) and after (1), ready to be drawn.
-struct VerifyMap {
-  Component component = Component::EX;
-  std::string state;
-  std::array<std::vector<Field::Marker>, 2> points;
-  std::array<std::optional<Field>, 2> fields;  ///< empty where the points span no plane
-};
-/// Any thread. `state` empty: the one with the largest value after compensating.
-[[nodiscard]] VerifyMap verifyMap(const VerifyResult& result, const MachineDescription& machine, Component component,
-                                  const std::string& state);
 
 class VerifyMaps : public QWidget {
   Q_OBJECT

@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
-#include "widgets/panels/discrepancy/residual_map.h"
+// SPDX-License-Identifier: Apache-2.0
+#include "core/workflows/residual_map.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@
 #include "core/machine/interpolated_field.h"
 #include "core/workflows/fit_campaign.h"
 
-namespace spindrift::gui {
+namespace spindrift {
 namespace {
 
 constexpr int nodes_along = 40;
@@ -124,4 +124,4 @@ ResidualMap residualMap(const DiscrepancyStory& story, const MachineDescription&
   return map;
 }
 
-}  // namespace spindrift::gui
+}  // namespace spindrift

@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: Apache-2.0
 // Measured minus model over the table at one moment: the values at the points and the field between them.
 #pragma once
 
@@ -10,7 +10,7 @@
 #include "core/machine/machine_description.h"
 #include "core/workflows/discrepancy_story.h"
 
-namespace spindrift::gui {
+namespace spindrift {
 
 struct ResidualMap {
   std::vector<Field::Marker> points;   ///< um or urad, with the noise as sigma
@@ -28,4 +28,4 @@ struct ResidualMap {
 [[nodiscard]] ResidualMap residualMap(const DiscrepancyStory& story, const MachineDescription& machine,
                                       Component component, double time_s, bool after);
 
-}  // namespace spindrift::gui
+}  // namespace spindrift
