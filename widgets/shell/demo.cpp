@@ -94,7 +94,7 @@ void writeSimulator(const std::string& scenario_name, const std::filesystem::pat
                           {"standard_uncertainty", has ? part_uncertain * size : 0.5},
                           {"min", 0.0},
                           {"max", has ? largest_factor * size : 50.0},
-                          {"what", effectTitle(id)},
+                          {"what", spindrift::effectTitle(id)},
                           {"effects", has ? nlohmann::json::array() : nlohmann::json::array({id})}});
   }
   const nlohmann::json simulator{{"format", "spindrift-simulator"},
