@@ -10652,10 +10652,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Länge in X</translation>
     </message>
     <message>
-        <source> mm</source>
-        <translation> mm</translation>
-    </message>
-    <message>
         <source>Size Y, along the scan</source>
         <translation>Länge in Y, in Scanrichtung</translation>
     </message>
@@ -10666,10 +10662,6 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>Wave along X</source>
         <translation>Welle entlang X</translation>
-    </message>
-    <message>
-        <source> rad/mm</source>
-        <translation> rad/mm</translation>
     </message>
     <message>
         <source>Wave along Y, amplitude</source>
@@ -10688,24 +10680,12 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Rauschen eines Punktes</translation>
     </message>
     <message>
-        <source> µm</source>
-        <translation> µm</translation>
-    </message>
-    <message>
         <source>Points of a scan</source>
         <translation>Punkte je Scan</translation>
     </message>
     <message>
-        <source> thousand</source>
-        <translation> Tausend</translation>
-    </message>
-    <message>
         <source>Steepest slope seen</source>
         <translation>Größte erfasste Steigung</translation>
-    </message>
-    <message>
-        <source> mm/mm</source>
-        <translation> mm/mm</translation>
     </message>
     <message>
         <source>Base under the lowest point</source>
@@ -10814,6 +10794,10 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>Saved as %1.</source>
         <translation>Gespeichert als %1.</translation>
+    </message>
+    <message>
+        <source>thousand</source>
+        <translation>Tausend</translation>
     </message>
 </context>
 <context>
@@ -10932,6 +10916,10 @@ einsatz</translation>
 / mm</source>
         <translation>Radius
 / mm</translation>
+    </message>
+    <message>
+        <source>No stylus yet.</source>
+        <translation>Noch kein Tastereinsatz.</translation>
     </message>
 </context>
 <context>
@@ -12003,6 +11991,10 @@ einsatz</translation>
     <message>
         <source>unknown</source>
         <translation>unbekannt</translation>
+    </message>
+    <message>
+        <source>Data items that are ticked become columns.</source>
+        <translation>Angekreuzte Datenpunkte werden Spalten.</translation>
     </message>
 </context>
 <context>
@@ -13925,10 +13917,6 @@ einsatz</translation>
         <translation>Größe des Effekts %1</translation>
     </message>
     <message>
-        <source> µm or µrad</source>
-        <translation> µm oder µrad</translation>
-    </message>
-    <message>
         <source>size not given</source>
         <translation>Größe nicht angegeben</translation>
     </message>
@@ -13987,6 +13975,18 @@ einsatz</translation>
     <message>
         <source>The search had been run before: half the marks.</source>
         <translation>Die Suche war zuvor ausgeführt worden: halbe Punktzahl.</translation>
+    </message>
+    <message>
+        <source>Kind of the size of effect %1</source>
+        <translation>Art der Größe des Effekts %1</translation>
+    </message>
+    <message>
+        <source>Displacement</source>
+        <translation>Verschiebung</translation>
+    </message>
+    <message>
+        <source>Rotation</source>
+        <translation>Drehung</translation>
     </message>
 </context>
 <context>
@@ -14949,20 +14949,12 @@ einsatz</translation>
         <translation>Über die Prüfung</translation>
     </message>
     <message>
-        <source>Per K, or first hour</source>
-        <translation>Je K oder erste Stunde</translation>
-    </message>
-    <message>
         <source>Slope, or time</source>
         <translation>Steigung oder Zeit</translation>
     </message>
     <message>
         <source>Time / h</source>
         <translation>Zeit / h</translation>
-    </message>
-    <message>
-        <source>Change / µm or µrad</source>
-        <translation>Änderung / µm oder µrad</translation>
     </message>
     <message>
         <source>The test will appear here</source>
@@ -15015,6 +15007,18 @@ einsatz</translation>
     <message>
         <source>The spindle ran from %1 h to %2 h.</source>
         <translation>Die Spindel lief von %1 h bis %2 h.</translation>
+    </message>
+    <message>
+        <source>Per degree, or first hour</source>
+        <translation>Je Grad oder erste Stunde</translation>
+    </message>
+    <message>
+        <source>Displacement / µm</source>
+        <translation>Verschiebung / µm</translation>
+    </message>
+    <message>
+        <source>Rotation / µrad</source>
+        <translation>Drehung / µrad</translation>
     </message>
 </context>
 <context>
@@ -15714,6 +15718,10 @@ einsatz</translation>
     <message>
         <source>surface</source>
         <translation>Fläche</translation>
+    </message>
+    <message>
+        <source>No measuring point yet.</source>
+        <translation>Noch kein Messpunkt.</translation>
     </message>
 </context>
 <context>
@@ -19881,10 +19889,6 @@ einsatz</translation>
         <translation>Pol</translation>
     </message>
     <message>
-        <source>%1 per unit</source>
-        <translation>%1 je Einheit</translation>
-    </message>
-    <message>
         <source>%1 at %2</source>
         <translation>%1 bei %2</translation>
     </message>
@@ -21132,10 +21136,6 @@ einsatz</translation>
         <translation>Achse</translation>
     </message>
     <message>
-        <source>Drift now</source>
-        <translation>Drift jetzt</translation>
-    </message>
-    <message>
         <source>Time constant</source>
         <translation>Zeitkonstante</translation>
     </message>
@@ -21246,6 +21246,10 @@ einsatz</translation>
     <message>
         <source>Withdraw the statement</source>
         <translation>Angabe zurücknehmen</translation>
+    </message>
+    <message>
+        <source>Drift now / (µm/h)</source>
+        <translation>Drift jetzt / (µm/h)</translation>
     </message>
 </context>
 <context>
