@@ -58,6 +58,8 @@ class Plot : public QWidget {
   void setAxes(const QString& x_title, const QString& y_title);
   /// Of x and y, as they are drawn.
   [[nodiscard]] QStringList axisTitles() const;
+  /// The same in the lines that they have room for.
+  [[nodiscard]] QStringList drawnTitles() const;
   /// Replaces all series, spans and marks, and shows everything.
   void setContent(std::vector<Series> series, std::vector<Span> spans = {});
   /// A vertical line with a name at x.
@@ -88,7 +90,8 @@ class Plot : public QWidget {
   [[nodiscard]] const std::vector<Series>& series() const { return series_; }
 
   [[nodiscard]] QSize sizeHint() const override { return {480, 280}; }
-  [[nodiscard]] QSize minimumSizeHint() const override { return {220, 150}; }
+  /// High enough for the title of the upright axis in two lines.
+  [[nodiscard]] QSize minimumSizeHint() const override;
 
  Q_SIGNALS:
   /// What is under the cursor: a value with its uncertainty, else the place on the axes; empty: the cursor has left.

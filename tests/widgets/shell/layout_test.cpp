@@ -27,6 +27,8 @@
 #include <QTest>
 #include <QTextDocumentFragment>
 #include <QTextEdit>
+#include <QTreeWidget>
+#include <QTreeWidgetItemIterator>
 #include <QVBoxLayout>
 #include <set>
 #include <tuple>
@@ -95,8 +97,10 @@ QStringList cutCells(const QTableView& table) {
       if (table.indexWidget(index) != nullptr) continue;
       const QVariant font = index.data(Qt::FontRole);
       const QFontMetrics metrics(font.isValid() ? font.value<QFont>() : table.font());
-      const int picture = index.data(Qt::DecorationRole).isNull() ? 0 : table.iconSize().width();
-      const int width = cell.width() - 2 * padding - std::max(0, picture);
+      const int icon = table.iconSize().isValid()
+                           ? table.iconSize().width()
+                           : table.style()->pixelMetric(QStyle::PM_SmallIconSize, nullptr, &table);
+      const int width = cell.width() - 2 * padding - (index.data(Qt::DecorationRole).isNull() ? 0 : icon);
       const bool fits =
           table.wordWrap()
               ? metrics.boundingRect(QRect(0, 0, width, 10000), Qt::TextWordWrap, text).height() <= cell.height() + 1 &&
@@ -104,6 +108,21 @@ QStringList cutCells(const QTableView& table) {
               : metrics.horizontalAdvance(text) <= width + 1;
       if (!fits) cut << QStringLiteral("cell of %1: %2").arg(table.accessibleName(), text);
     }
+  }
+  return cut;
+}
+
+/// The same of a tree whose texts go on in further lines.
+QStringList cutItems(const QTreeWidget& tree) {
+  QStringList cut;
+  for (QTreeWidgetItemIterator at(const_cast<QTreeWidget*>(&tree)); *at != nullptr; ++at) {
+    const QRect item = tree.visualItemRect(*at);
+    if (!tree.viewport()->rect().contains(item)) continue;
+    const int beside = tree.style()->pixelMetric(QStyle::PM_IndicatorWidth, nullptr, &tree) + 8;
+    const int width = tree.columnWidth(0) - item.left() - ((*at)->data(0, Qt::CheckStateRole).isValid() ? beside : 0);
+    const QRect needed = tree.fontMetrics().boundingRect(QRect(0, 0, width, 10000), Qt::TextWordWrap, (*at)->text(0));
+    if (needed.width() > width + 1 || needed.height() > item.height() + 1)
+      cut << QStringLiteral("item of %1: %2").arg(tree.accessibleName(), (*at)->text(0));
   }
   return cut;
 }
@@ -123,6 +142,11 @@ QStringList cutTexts(const QWidget& root) {
       if (all > bar->width()) cut << QStringLiteral("tabs, of which the last is ") + bar->tabText(bar->count() - 1);
     }
     if (const auto* table = qobject_cast<QTableView*>(w)) cut << cutCells(*table);
+    if (const auto* plot = qobject_cast<Plot*>(w); plot != nullptr && !plot->empty()) {
+      for (const QString& title : plot->drawnTitles())
+        if (title.contains(QChar(0x2026))) cut << QStringLiteral("axis: ") + title;
+    }
+    if (const auto* tree = qobject_cast<QTreeWidget*>(w)) cut << cutItems(*tree);
     if (const auto* text = qobject_cast<QTextEdit*>(w); text != nullptr && text->horizontalScrollBar()->maximum() > 0)
       cut << QStringLiteral("text of %1: %2 px of %3")
                  .arg(text->accessibleName())

@@ -27,7 +27,6 @@
 #include "core/tasks/task_options.h"
 #include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
-#include "widgets/common/scrolling.h"
 #include "widgets/common/words.h"
 #include "widgets/common/wrap_layout.h"
 #include "widgets/models/rows_model.h"
@@ -134,7 +133,7 @@ CompensatePage::CompensatePage(PageContext page_context, QWidget* parent)
   preview_->setFont(QFontDatabase::systemFont(QFontDatabase::FixedFont));
   preview_->setAccessibleName(tr("Beginning of the file"));
   files_column->addWidget(preview_, 4);
-  tabs_->addTab(makeScrolling(files), tr("Files and their signs"));
+  tabs_->addTab(files, tr("Files and their signs"));
   left->body()->addWidget(tabs_, 1);
 
   auto* right = new Card;
