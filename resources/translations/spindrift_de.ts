@@ -19004,10 +19004,6 @@ einsatz</translation>
         <translation>nachher</translation>
     </message>
     <message>
-        <source>%1 of %2, y %3 mm</source>
-        <translation>%1 von %2, y %3 mm</translation>
-    </message>
-    <message>
         <source>Cloud</source>
         <translation>Punktwolke</translation>
     </message>
@@ -19072,6 +19068,10 @@ einsatz</translation>
     <message>
         <source>Cold and warm, one over the other</source>
         <translation>Kalt und warm übereinander</translation>
+    </message>
+    <message>
+        <source>%1 of %2: y %3 mm</source>
+        <translation>%1 von %2: y %3 mm</translation>
     </message>
 </context>
 <context>
@@ -19184,10 +19184,6 @@ einsatz</translation>
         <translation>Etwas in die Simulation einsetzen: hier erscheinen ihre Läufe vorher und nachher.</translation>
     </message>
     <message>
-        <source>%1 of %2: rms %3, then %4</source>
-        <translation>%1 von %2: rms %3, dann %4</translation>
-    </message>
-    <message>
         <source>measured</source>
         <translation>gemessen</translation>
     </message>
@@ -19206,6 +19202,10 @@ einsatz</translation>
     <message>
         <source>Time / %1</source>
         <translation>Zeit / %1</translation>
+    </message>
+    <message>
+        <source>%1 of %2: rms %3 → %4</source>
+        <translation>%1 von %2: rms %3 → %4</translation>
     </message>
 </context>
 <context>

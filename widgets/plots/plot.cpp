@@ -39,7 +39,7 @@ constexpr int tick_advance = 64;  ///< px of a lying axis for one number
 constexpr int least_for_label = 24;
 constexpr int least_width = 220;
 constexpr int least_height = 150;
-constexpr int around_axes = 40;  ///< ticks, margins and paddings above and below the axes
+constexpr int around_axes = 84;  ///< ticks, margins and paddings above and below the axes
 
 /// A title in two lines, the longer of which is as short as it can be; one where it has no blank.
 QStringList inTwoLines(const QString& title, const QFontMetrics& metrics) {
@@ -137,6 +137,13 @@ void Plot::setAxes(const QString& x_title, const QString& y_title) {
   replotSoon();
 }
 
+void Plot::setTitlesShown(bool x, bool y) {
+  x_title_shown_ = x;
+  y_title_shown_ = y;
+  updateGeometry();
+  replotSoon();
+}
+
 QSize Plot::minimumSizeHint() const {
   const QFontMetrics metrics(plot_->yAxis->labelFont());
   int title = 0;
@@ -154,7 +161,7 @@ QStringList Plot::drawnTitles() const {
 }
 
 QStringList Plot::axisTitles() const {
-  return {shownTitle(x_title_), shownTitle(y_title_)};
+  return {x_title_shown_ ? shownTitle(x_title_) : QString(), y_title_shown_ ? shownTitle(y_title_) : QString()};
 }
 
 /// What a screen reader says, unless the page has given a name of its own.

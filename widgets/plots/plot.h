@@ -56,7 +56,9 @@ class Plot : public QWidget {
   /// Units of the titles are printed as people write them: "EX / um" becomes "EX / µm". Titles and values have the
   /// units of files; axes and what stands under the cursor those that the user wants.
   void setAxes(const QString& x_title, const QString& y_title);
-  /// Of x and y, as they are drawn.
+  /// Plots beside each other need the titles of their common axes once: units and names stay those of the titles.
+  void setTitlesShown(bool x, bool y);
+  /// Of x and y, as they are drawn; empty: not shown.
   [[nodiscard]] QStringList axisTitles() const;
   /// The same in the lines that they have room for.
   [[nodiscard]] QStringList drawnTitles() const;
@@ -115,6 +117,7 @@ class Plot : public QWidget {
 
   QCustomPlot* plot_;
   QString x_title_, y_title_;
+  bool x_title_shown_ = true, y_title_shown_ = true;
   QString empty_title_, empty_how_;
   QString own_name_;  ///< for screen readers, while the page gives none
   std::vector<Series> series_;

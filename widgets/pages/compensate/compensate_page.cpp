@@ -123,8 +123,8 @@ CompensatePage::CompensatePage(PageContext page_context, QWidget* parent)
   files_column->setSpacing(8);
   file_table_ = makeSentenceTable(files_, tr("Files for the control"), tr("Files appear here."));
   files_column->addWidget(file_table_, 4);
-  convention_ = makeLabel({}, "instruction");
-  convention_->setWordWrap(true);
+  convention_ = new WrappedLabel;
+  convention_->setProperty("role", QStringLiteral("instruction"));
   files_column->addWidget(convention_);
   preview_ = new QPlainTextEdit;
   preview_->setReadOnly(true);

@@ -69,7 +69,6 @@ WarmUpPage::WarmUpPage(PageContext page_context, QWidget* parent)
   temperature_ = new Plot;
   temperature_->setEmptyText(tr("Temperatures will appear here"),
                              tr("They come from log.csv of the campaign; this one has none."));
-  temperature_->setMinimumHeight(165);  // the drift above needs the room more
   temperature->body()->addWidget(temperature_, 1);
   content()->addWidget(new MachineStateLine(session()));
   content()->addWidget(makeSplitter(instrument, temperature, 3, 2, Qt::Vertical), 1);
