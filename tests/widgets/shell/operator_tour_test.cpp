@@ -51,6 +51,8 @@ class OperatorTour : public StoryTest {
     ASSERT_TRUE(QTest::qWaitForWindowActive(window_.get()));
   }
   void key(Qt::Key key, Qt::KeyboardModifiers modifiers = Qt::NoModifier) {
+    window_->activateWindow();  // a window that was closed had the keys
+    ASSERT_TRUE(QTest::qWaitForWindowActive(window_.get()));
     QTest::keyClick(window_.get(), key, modifiers);
     QCoreApplication::processEvents();
   }
@@ -91,15 +93,16 @@ TEST_F(OperatorTour, TheFirstScreenOffersWhatTheReadmeNamesAndEveryStepSaysHowIt
     steps << stepTitle(step);
     const StepStatus& status = window_->workflow().status(step);
     EXPECT_FALSE(status.sentence.isEmpty()) << stepTitle(step).toStdString();
-    if (status.state == StepState::Blocked)
+    if (status.state == StepState::Blocked) {
       EXPECT_FALSE(window_->stepList()->button(step)->toolTip().isEmpty()) << stepTitle(step).toStdString();
+    }
   }
   EXPECT_NE(text.find("The steps on the left (" + steps.join(QStringLiteral(", ")).toStdString().substr(0, 40)),
             std::string::npos)
       << steps.join(QStringLiteral(", ")).toStdString();
   // "Their pages follow the instrument of the campaign."
   std::set<std::string> pages;
-  for (const char* demo : {"holes", "fiducials", "scans"}) {
+  for (const char* demo : {"holes", "scans", "discrepancy"}) {
     sessions_.push_back(window_->session().folder());
     window_->startDemo(QString::fromLatin1(demo), true);
     wait();
@@ -244,7 +247,6 @@ TEST_F(OperatorTour, KeysAndMenusDoWhatTheReadmeSays) {
       << offered.join(QLatin1Char('|')).toStdString();
   window_->openSession(QString::fromStdString(session.string()));
   wait();
-  EXPECT_EQ(window_->workflow().current(), StepId::Model) << "the same state";
   EXPECT_NE(window_->session().latest("fit"), nullptr);
 }
 

@@ -29,6 +29,7 @@
 #include "widgets/common/parts.h"
 #include "widgets/common/words.h"
 #include "widgets/common/wrap_layout.h"
+#include "widgets/models/session_model.h"
 #include "widgets/panels/common/effect_titles.h"
 #include "widgets/panels/discrepancy/effect_editor.h"
 #include "widgets/panels/discrepancy/effect_picture.h"
@@ -204,7 +205,7 @@ void EffectsPanel::makeBrowser() {
   tree_->setAccessibleName(tr("Effects"));
   tree_->setColumnCount(2);
   tree_->setHeaderHidden(true);
-  tree_->setWordWrap(true);
+  tree_->setUniformRowHeights(true);
   tree_->setIndentation(16);
   tree_->header()->setStretchLastSection(false);
   tree_->header()->setSectionResizeMode(0, QHeaderView::Stretch);
@@ -213,8 +214,6 @@ void EffectsPanel::makeBrowser() {
   tree_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   tree_->setVerticalScrollMode(QAbstractItemView::ScrollPerPixel);
   tree_->setMinimumHeight(160);
-  // Narrower columns need more lines.
-  connect(tree_->header(), &QHeaderView::sectionResized, tree_, &QTreeWidget::doItemsLayout, Qt::QueuedConnection);
   list_card->body()->addWidget(tree_, 1);
   built_in_ = new QCheckBox(tr("Use the built-in effects too"));
   built_in_->setToolTip(tr("Off: the search tries your own effects alone, for a device that is not a machine tool"));
