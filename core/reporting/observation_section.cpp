@@ -8,6 +8,7 @@
 #include <set>
 #include <tuple>
 
+#include "core/base/natural_order.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
 #include "core/reporting/plot_picture.h"
@@ -108,7 +109,7 @@ void addChangeTable(Report& document, const std::vector<std::string>& states, co
 
 void addMaps(Report& document, const std::vector<std::string>& states, const std::vector<Change>& changes) {
   for (std::size_t s = 0; s < std::min(states.size(), most_maps); ++s) {
-    std::map<std::string, PointDisplacement> points;
+    std::map<std::string, PointDisplacement, NaturalOrder> points;
     std::set<std::string> references;
     for (const Change& c : changes) {
       if (c.row->state != states[s] || isRotation(c.row->component)) continue;

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/base/error.h"
+#include "core/base/natural_order.h"
 #include "core/math/statistics.h"
 #include "core/probing/evaluate_touches.h"
 #include "core/workflows/compensated_data.h"
@@ -45,7 +46,7 @@ void addCycles(const Campaign& campaign, const std::filesystem::path& touches, C
 }
 
 void addObservations(const ObservationSet& set, CampaignSeries& out, std::size_t least_times) {
-  std::map<std::string, std::vector<const Observation*>> columns;
+  std::map<std::string, std::vector<const Observation*>, NaturalOrder> columns;
   for (const Observation& o : set.rows) {
     if (o.use == ObservationUse::Exclude) continue;
     columns[fmt::format("{}_{}_{}", o.point, toString(o.component), isRotation(o.component) ? "urad" : "um")].push_back(

@@ -12,6 +12,7 @@
 #include "core/base/count_text.h"
 #include "core/base/error.h"
 #include "core/base/json_reader.h"
+#include "core/base/natural_order.h"
 #include "core/base/text.h"
 #include "core/base/unit_text.h"
 #include "core/workflows/compensated_data.h"
@@ -38,12 +39,12 @@ struct Course {
 /// Points of one name further apart than this are not the same point.
 constexpr double same_place_mm = 1.0;
 
-std::map<SeriesKey, Course> coursesOf(const ObservationSet& set) {
+std::map<SeriesKey, Course, NaturalOrder> coursesOf(const ObservationSet& set) {
   std::vector<const Observation*> rows;
   for (const Observation& o : set.rows)
     if (o.use != ObservationUse::Exclude) rows.push_back(&o);
   std::stable_sort(rows.begin(), rows.end(), [](auto* a, auto* b) { return a->time_s < b->time_s; });
-  std::map<SeriesKey, Course> out;
+  std::map<SeriesKey, Course, NaturalOrder> out;
   std::map<std::tuple<std::string, Component, std::string>, double> weight;
   for (const Observation* o : rows) {
     Course& course = out[{o->point, o->component}];

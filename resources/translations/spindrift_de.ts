@@ -10684,10 +10684,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Länge in X</translation>
     </message>
     <message>
-        <source> mm</source>
-        <translation> mm</translation>
-    </message>
-    <message>
         <source>Size Y, along the scan</source>
         <translation>Länge in Y, in Scanrichtung</translation>
     </message>
@@ -10698,10 +10694,6 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>Wave along X</source>
         <translation>Welle entlang X</translation>
-    </message>
-    <message>
-        <source> rad/mm</source>
-        <translation> rad/mm</translation>
     </message>
     <message>
         <source>Wave along Y, amplitude</source>
@@ -10720,24 +10712,12 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Rauschen eines Punktes</translation>
     </message>
     <message>
-        <source> µm</source>
-        <translation> µm</translation>
-    </message>
-    <message>
         <source>Points of a scan</source>
         <translation>Punkte je Scan</translation>
     </message>
     <message>
-        <source> thousand</source>
-        <translation> Tausend</translation>
-    </message>
-    <message>
         <source>Steepest slope seen</source>
         <translation>Größte erfasste Steigung</translation>
-    </message>
-    <message>
-        <source> mm/mm</source>
-        <translation> mm/mm</translation>
     </message>
     <message>
         <source>Base under the lowest point</source>
@@ -10846,6 +10826,10 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>Saved as %1.</source>
         <translation>Gespeichert als %1.</translation>
+    </message>
+    <message>
+        <source>thousand</source>
+        <translation>Tausend</translation>
     </message>
 </context>
 <context>
@@ -10964,6 +10948,10 @@ einsatz</translation>
 / mm</source>
         <translation>Radius
 / mm</translation>
+    </message>
+    <message>
+        <source>No stylus yet.</source>
+        <translation>Noch kein Tastereinsatz.</translation>
     </message>
 </context>
 <context>
@@ -12035,6 +12023,10 @@ einsatz</translation>
     <message>
         <source>unknown</source>
         <translation>unbekannt</translation>
+    </message>
+    <message>
+        <source>Data items that are ticked become columns.</source>
+        <translation>Angekreuzte Datenpunkte werden Spalten.</translation>
     </message>
 </context>
 <context>
@@ -13957,10 +13949,6 @@ einsatz</translation>
         <translation>Größe des Effekts %1</translation>
     </message>
     <message>
-        <source> µm or µrad</source>
-        <translation> µm oder µrad</translation>
-    </message>
-    <message>
         <source>size not given</source>
         <translation>Größe nicht angegeben</translation>
     </message>
@@ -14019,6 +14007,18 @@ einsatz</translation>
     <message>
         <source>The search had been run before: half the marks.</source>
         <translation>Die Suche war zuvor ausgeführt worden: halbe Punktzahl.</translation>
+    </message>
+    <message>
+        <source>Kind of the size of effect %1</source>
+        <translation>Art der Größe des Effekts %1</translation>
+    </message>
+    <message>
+        <source>Displacement</source>
+        <translation>Verschiebung</translation>
+    </message>
+    <message>
+        <source>Rotation</source>
+        <translation>Drehung</translation>
     </message>
 </context>
 <context>
@@ -14985,20 +14985,12 @@ einsatz</translation>
         <translation>Über die Prüfung</translation>
     </message>
     <message>
-        <source>Per K, or first hour</source>
-        <translation>Je K oder erste Stunde</translation>
-    </message>
-    <message>
         <source>Slope, or time</source>
         <translation>Steigung oder Zeit</translation>
     </message>
     <message>
         <source>Time / h</source>
         <translation>Zeit / h</translation>
-    </message>
-    <message>
-        <source>Change / µm or µrad</source>
-        <translation>Änderung / µm oder µrad</translation>
     </message>
     <message>
         <source>The test will appear here</source>
@@ -15051,6 +15043,18 @@ einsatz</translation>
     <message>
         <source>The spindle ran from %1 h to %2 h.</source>
         <translation>Die Spindel lief von %1 h bis %2 h.</translation>
+    </message>
+    <message>
+        <source>Per degree, or first hour</source>
+        <translation>Je Grad oder erste Stunde</translation>
+    </message>
+    <message>
+        <source>Displacement / µm</source>
+        <translation>Verschiebung / µm</translation>
+    </message>
+    <message>
+        <source>Rotation / µrad</source>
+        <translation>Drehung / µrad</translation>
     </message>
 </context>
 <context>
@@ -15750,6 +15754,10 @@ einsatz</translation>
     <message>
         <source>surface</source>
         <translation>Fläche</translation>
+    </message>
+    <message>
+        <source>No measuring point yet.</source>
+        <translation>Noch kein Messpunkt.</translation>
     </message>
 </context>
 <context>
@@ -19032,10 +19040,6 @@ einsatz</translation>
         <translation>nachher</translation>
     </message>
     <message>
-        <source>%1 of %2, y %3 mm</source>
-        <translation>%1 von %2, y %3 mm</translation>
-    </message>
-    <message>
         <source>Cloud</source>
         <translation>Punktwolke</translation>
     </message>
@@ -19100,6 +19104,10 @@ einsatz</translation>
     <message>
         <source>Cold and warm, one over the other</source>
         <translation>Kalt und warm übereinander</translation>
+    </message>
+    <message>
+        <source>%1 of %2: y %3 mm</source>
+        <translation>%1 von %2: y %3 mm</translation>
     </message>
 </context>
 <context>
@@ -19212,10 +19220,6 @@ einsatz</translation>
         <translation>Etwas in die Simulation einsetzen: hier erscheinen ihre Läufe vorher und nachher.</translation>
     </message>
     <message>
-        <source>%1 of %2: rms %3, then %4</source>
-        <translation>%1 von %2: rms %3, dann %4</translation>
-    </message>
-    <message>
         <source>measured</source>
         <translation>gemessen</translation>
     </message>
@@ -19234,6 +19238,10 @@ einsatz</translation>
     <message>
         <source>Time / %1</source>
         <translation>Zeit / %1</translation>
+    </message>
+    <message>
+        <source>%1 of %2: rms %3 → %4</source>
+        <translation>%1 von %2: rms %3 → %4</translation>
     </message>
 </context>
 <context>
@@ -19915,10 +19923,6 @@ einsatz</translation>
     <message>
         <source>pole</source>
         <translation>Pol</translation>
-    </message>
-    <message>
-        <source>%1 per unit</source>
-        <translation>%1 je Einheit</translation>
     </message>
     <message>
         <source>%1 at %2</source>
@@ -21168,10 +21172,6 @@ einsatz</translation>
         <translation>Achse</translation>
     </message>
     <message>
-        <source>Drift now</source>
-        <translation>Drift jetzt</translation>
-    </message>
-    <message>
         <source>Time constant</source>
         <translation>Zeitkonstante</translation>
     </message>
@@ -21282,6 +21282,10 @@ einsatz</translation>
     <message>
         <source>Withdraw the statement</source>
         <translation>Angabe zurücknehmen</translation>
+    </message>
+    <message>
+        <source>Drift now / (µm/h)</source>
+        <translation>Drift jetzt / (µm/h)</translation>
     </message>
 </context>
 <context>

@@ -3,10 +3,10 @@
 """Collects every sentence a user may read into the catalogues of translations.
 
 Sentences of the window stand in tr(); lupdate finds them. Sentences of `core` are English formats of {fmt} ("file {} is
-not there"); this script finds them and writes them into widgets/common/core_formats.cpp, where lupdate sees them under
-the context "core" and the program looks them up (widgets/common/core_sentence.h).
+not there"); this script finds them and writes them into widgets/common/core_formats, a file for each folder of core, where
+lupdate sees them under the context "core" and the program looks them up (widgets/common/core_sentence.h).
 
-    update.py           writes core_formats.cpp and brings all resources/translations/*.ts up to date
+    update.py           writes core_formats/*.cpp and brings all resources/translations/*.ts up to date
     update.py --check   writes nothing; exit status 1 and what is missing if a file is not up to date
 """
 import argparse
@@ -18,7 +18,9 @@ import tempfile
 import xml.etree.ElementTree as ElementTree
 
 TOP = pathlib.Path(__file__).resolve().parents[2]
-FORMATS = TOP / "widgets/common/core_formats.cpp"
+FORMATS = TOP / "widgets/common/core_formats"
+# Beside the folders of core: words, counts and headings that are put together, and texts of the window.
+WORDS_FILE, WINDOW_FILE = "words", "window"
 CATALOGUES = TOP / "resources/translations"
 # Reports, decks for solvers and the reference of the command line are documents of their own: English.
 LEFT_OUT = re.compile(r"core/(reporting/(?!parameter_meanings)|finite_elements/)|report(?!ing/parameter_meanings)|core/workflows/(manual|file_)|core/base/program_reference|"
@@ -124,7 +126,7 @@ def collectedTexts():
     for path in sorted((TOP / "widgets").rglob("*.cpp")):
         text = path.read_text(encoding="utf-8")
         contexts = {name: context for name, _, context in HELPER.findall(text)}
-        if not contexts or path == FORMATS:
+        if not contexts or path.parent == FORMATS:
             continue
         for literal, _, calls, _ in literals(text):
             if calls and calls[-1] in contexts:
@@ -148,19 +150,33 @@ def marked(element):
                                            for each in element)
 
 
-def formatsFile(found):
-    lines = ["// SPDX-License-Identifier: GPL-3.0-or-later",
-             "// Written by resources/translations/update.py from the sources of core; do not edit.",
-             '#include "widgets/common/core_formats.h"', "", "#include <QtGlobal>", "", "// clang-format off", "",
-             "namespace spindrift::gui {", "namespace {", "", "const char* const formats[] = {"]
-    lines += ['    QT_TRANSLATE_NOOP("core", "%s"),' % text for text in sorted(found)]
-    lines += ["};", ""]
-    lines += ["// Found by lupdate here, looked up where they stand.", "[[maybe_unused]] constexpr const char* texts[] = {"]
+def formatsFiles(found):
+    """Path and text of every file below FORMATS."""
+    groups = {}
+    for text, name in found.items():
+        groups.setdefault(name.split("/")[1] if name else WORDS_FILE, []).append(text)
+    files = {}
+    head = ["// SPDX-License-Identifier: GPL-3.0-or-later",
+            "// Written by resources/translations/update.py from the sources; do not edit."]
+    for group, texts in sorted(groups.items()):
+        lines = head + ['#include "widgets/common/core_formats/groups.h"', "", "#include <QtGlobal>", "",
+                        "// clang-format off", "", f"std::span<const char* const> spindrift::gui::core_formats::{group}() noexcept {{",
+                        "  static const char* const formats[] = {"]
+        lines += ['    QT_TRANSLATE_NOOP("core", "%s"),' % text for text in sorted(texts)]
+        files[FORMATS / f"{group}.cpp"] = "\n".join([*lines, "  };", "  return formats;", "}", ""])
+    lines = head + ["// Found by lupdate here, looked up where they stand.", "#include <QtGlobal>", "", "// clang-format off", "",
+                    "namespace {", "", "[[maybe_unused]] constexpr const char* window_texts[] = {"]
     lines += ['    QT_TRANSLATE_NOOP("%s", "%s"),' % each for each in collectedTexts()]
-    lines += ["};", "", "}  // namespace", "",
-              "std::span<const char* const> coreFormats() noexcept {", "  return formats;", "}", "",
-              "}  // namespace spindrift::gui", ""]
-    return "\n".join(lines)
+    files[FORMATS / f"{WINDOW_FILE}.cpp"] = "\n".join([*lines, "};", "", "}  // namespace", ""])
+    names = sorted(groups)
+    lines = head + ["// The formats of each folder of core, and the words that several of them put together.", "#pragma once", "",
+                    "#include <span>", "", "namespace spindrift::gui::core_formats {", ""]
+    lines += [f"[[nodiscard]] std::span<const char* const> {name}() noexcept;" for name in names]
+    lines += ["", "inline constexpr std::span<const char* const> (*groups[])() noexcept = {"]
+    lines += [f"    {name}," for name in names]
+    lines += ["};", "", "}  // namespace spindrift::gui::core_formats", ""]
+    files[FORMATS / "groups.h"] = "\n".join(lines)
+    return files
 
 
 def runLupdate(catalogue, *options):
@@ -179,17 +195,22 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--check", action="store_true", help="write nothing; exit status 1 if something is not up to date")
     arguments = parser.parse_args()
-    text = formatsFile(coreFormats())
+    files = formatsFiles(coreFormats())
     catalogues = sorted(CATALOGUES.glob("*.ts"))
+    there = {path: path.read_text(encoding="utf-8") for path in FORMATS.glob("*")} if FORMATS.is_dir() else {}
     if not arguments.check:
-        if FORMATS.read_text(encoding="utf-8") != text:
-            FORMATS.write_text(text, encoding="utf-8")
+        FORMATS.mkdir(exist_ok=True)
+        for path in there.keys() - files.keys():
+            path.unlink()
+        for path, text in files.items():
+            if there.get(path) != text:
+                path.write_text(text, encoding="utf-8")
         for catalogue in catalogues:
             runLupdate(catalogue, *(["-pluralonly"] if catalogue.stem.endswith("_en") else []))
         return 0
     wrong = []
-    if FORMATS.read_text(encoding="utf-8") != text:
-        wrong.append(f"{FORMATS.relative_to(TOP)} is not what the sources of core say")
+    for path in sorted(there.keys() ^ files.keys() | {path for path in files if there.get(path) != files[path]}):
+        wrong.append(f"{path.relative_to(TOP)} is not what the sources say")
     for catalogue in catalogues:
         with tempfile.TemporaryDirectory() as folder:
             copy = pathlib.Path(folder) / catalogue.name

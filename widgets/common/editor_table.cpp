@@ -41,6 +41,7 @@ class Editor : public QTableWidget {
   void paintEvent(QPaintEvent* event) override {
     QTableWidget::paintEvent(event);
     coverCutRows(*this);
+    sayWhatIsEmpty(*this);
   }
 
  private:
@@ -72,8 +73,9 @@ void makeRemoving(QPushButton* button, QTableWidget* table, std::function<void()
   });
 }
 
-QTableWidget* makeEditor(const QStringList& headers, const QString& accessible_name) {
+QTableWidget* makeEditor(const QStringList& headers, const QString& accessible_name, const QString& empty_text) {
   auto* table = new Editor(0, static_cast<int>(headers.size()));
+  table->setProperty("emptyText", empty_text);
   table->setHorizontalHeader(new TableTitles(table));
   table->setHorizontalHeaderLabels(headers);
   table->setAccessibleName(accessible_name);

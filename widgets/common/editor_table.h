@@ -18,7 +18,9 @@ namespace spindrift::gui {
 void sayBeside(QWidget* button, const QString& sentence);
 /// The button removes the row that is chosen, and `removed` is called; where none is chosen it says so.
 void makeRemoving(QPushButton* button, QTableWidget* table, std::function<void()> removed);
-[[nodiscard]] QTableWidget* makeEditor(const QStringList& headers, const QString& accessible_name);
+/// `empty_text` stands in it while it has no rows.
+[[nodiscard]] QTableWidget* makeEditor(const QStringList& headers, const QString& accessible_name,
+                                       const QString& empty_text = {});
 [[nodiscard]] QString numberText(const std::optional<double>& value);
 [[nodiscard]] QString textAt(const QTableWidget* table, int row, int column);
 void setText(QTableWidget* table, int row, int column, const QString& text);

@@ -357,11 +357,16 @@ class QuietTable : public QTableView {
   void updateGeometries() override {
     if (auto* titles = dynamic_cast<TableTitles*>(horizontalHeader())) titles->fit(leastWidth(false));
     QTableView::updateGeometries();
+    startWithAWholeRow();
     // Rows have got other heights.
     if (const int height = minimumSizeHint().height(); height != asked_height_) {
       asked_height_ = height;
       updateGeometry();
     }
+  }
+  void scrollContentsBy(int dx, int dy) override {
+    QTableView::scrollContentsBy(dx, dy);
+    startWithAWholeRow();
   }
   int sizeHintForColumn(int column) const override {
     const int wanted = contentWidth(column);
@@ -408,12 +413,7 @@ class QuietTable : public QTableView {
     QTableView::paintEvent(event);
     if (model() == nullptr) return;
     coverCutRows(*this);
-    if (model()->rowCount() > 0) return;
-    QPainter painter(viewport());
-    painter.setFont(textFont(sizes::font_body));
-    painter.setPen(theme().text_secondary);
-    painter.drawText(viewport()->rect().adjusted(16, 8, -16, -8), Qt::AlignCenter | Qt::TextWordWrap,
-                     property("emptyText").toString());
+    sayWhatIsEmpty(*this);
   }
 
  private:
@@ -470,14 +470,28 @@ class QuietTable : public QTableView {
           delegate == nullptr ? index.data().toString() : delegate->displayText(index.data(), QLocale());
       const QVariant font = index.data(Qt::FontRole);
       const QFontMetrics metrics(font.isValid() ? font.value<QFont>() : this->font());
-      const int beside = index.data(Qt::DecorationRole).isNull() ? 0 : iconSize().width() + 8;
+      const int beside = index.data(Qt::DecorationRole).isNull() ? 0 : iconWidth() + beside_icon;
       for (const QString& word : text.split(between))
         width = std::max(width, metrics.horizontalAdvance(word) + beside + around_text);
     }
     return width = std::min(width, longest_word);
   }
 
+  /// Of the icon of a cell: that of the style where the view has none of its own.
+  [[nodiscard]] int iconWidth() const {
+    return iconSize().isValid() ? iconSize().width() : style()->pixelMetric(QStyle::PM_SmallIconSize, nullptr, this);
+  }
+  /// Scrolled to the end, Qt puts the last row at the bottom: the first one is cut then. Whole rows stand at the top.
+  void startWithAWholeRow() {
+    const QScrollBar& bar = *verticalScrollBar();
+    if (verticalScrollMode() != ScrollPerItem || bar.maximum() == 0 || bar.value() != bar.maximum()) return;
+    const int before = verticalHeader()->offset();
+    verticalHeader()->setOffsetToSectionPosition(bar.value());
+    if (verticalHeader()->offset() != before) viewport()->update();
+  }
+
   static constexpr int beside_columns = 24;  ///< frame, scroll bar and padding of the style sheet
+  static constexpr int beside_icon = 8;      ///< between an icon and its text, and around both
   static constexpr int around_text = 20;     ///< margins and the padding of the style sheet
   static constexpr int longest_word = 220;
   static constexpr int most_rows_looked_at = 200;

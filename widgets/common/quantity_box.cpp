@@ -29,6 +29,11 @@ void QuantityBox::followUnits() {
   setValue(kept);
 }
 
+void QuantityBox::setUnit(const QString& unit) {
+  unit_ = unit;
+  followUnits();
+}
+
 QString QuantityBox::typed(QString text) const {
   if (text.startsWith(prefix())) text.remove(0, prefix().size());
   if (text.endsWith(suffix())) text.chop(suffix().size());

@@ -18,6 +18,8 @@ class QuantityBox : public QDoubleSpinBox {
   [[nodiscard]] QString textFromValue(double value) const override;
   [[nodiscard]] double valueFromText(const QString& text) const override;
   QValidator::State validate(QString& text, int& at) const override;
+  /// Of another quantity; the number of the unit of files stays.
+  void setUnit(const QString& unit);
 
  private:
   /// Without prefix and suffix.

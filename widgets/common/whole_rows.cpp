@@ -5,6 +5,7 @@
 #include <QPainter>
 #include <QTableView>
 
+#include "widgets/theme/fonts.h"
 #include "widgets/theme/theme.h"
 
 namespace spindrift::gui {
@@ -20,6 +21,15 @@ void coverCutRows(QTableView& table) {
     const QRect place(0, table.rowViewportPosition(row), seen.width(), table.rowHeight(row));
     if (!seen.contains(place) && place.height() <= seen.height()) painter.fillRect(place & seen, theme().surface);
   }
+}
+
+void sayWhatIsEmpty(QTableView& table) {
+  if (table.model() == nullptr || table.model()->rowCount() > 0) return;
+  QPainter painter(table.viewport());
+  painter.setFont(textFont(sizes::font_body));
+  painter.setPen(theme().text_secondary);
+  painter.drawText(table.viewport()->rect().adjusted(16, 8, -16, -8), Qt::AlignCenter | Qt::TextWordWrap,
+                   table.property("emptyText").toString());
 }
 
 }  // namespace spindrift::gui

@@ -37,17 +37,30 @@ constexpr int most_ticks = 6;
 constexpr int tick_line = 26;     ///< px of an upright axis for one number
 constexpr int tick_advance = 64;  ///< px of a lying axis for one number
 constexpr int least_for_label = 24;
+constexpr int least_width = 220;
+constexpr int least_height = 150;
+constexpr int around_axes = 84;  ///< ticks, margins and paddings above and below the axes
+
+/// A title in two lines, the longer of which is as short as it can be; one where it has no blank.
+QStringList inTwoLines(const QString& title, const QFontMetrics& metrics) {
+  QStringList best{title};
+  int least = std::numeric_limits<int>::max();
+  for (qsizetype i = title.indexOf(QLatin1Char(' ')); i >= 0; i = title.indexOf(QLatin1Char(' '), i + 1)) {
+    const QStringList lines{title.left(i), title.mid(i + 1)};
+    const int width = std::max(metrics.horizontalAdvance(lines[0]), metrics.horizontalAdvance(lines[1]));
+    if (width >= least) continue;
+    least = width;
+    best = lines;
+  }
+  return best;
+}
 
 /// The title of an axis within its length: in two lines where one is too long.
 QString fitted(const QString& title, const QFontMetrics& metrics, int length) {
   if (length < least_for_label || metrics.horizontalAdvance(title) <= length) return title;
-  qsizetype best = -1;
-  for (qsizetype i = title.indexOf(QLatin1Char(' ')); i >= 0; i = title.indexOf(QLatin1Char(' '), i + 1)) {
-    if (best < 0 || std::abs(2 * i - title.size()) < std::abs(2 * best - title.size())) best = i;
-  }
-  if (best < 0) return metrics.elidedText(title, Qt::ElideRight, length);
-  return metrics.elidedText(title.left(best), Qt::ElideRight, length) + QLatin1Char('\n') +
-         metrics.elidedText(title.mid(best + 1), Qt::ElideRight, length);
+  QStringList lines = inTwoLines(title, metrics);
+  for (QString& line : lines) line = metrics.elidedText(line, Qt::ElideRight, length);
+  return lines.join(QLatin1Char('\n'));
 }
 
 /// Numbers on an axis, round in the units on screen, with a true minus sign.
@@ -107,6 +120,7 @@ Plot::Plot(QWidget* parent) : QWidget(parent), plot_(new QCustomPlot(this)) {
   });
   connect(&UnitsNotifier::instance(), &UnitsNotifier::changed, this, [this] {
     nameForReaders();
+    updateGeometry();
     rebuild();
     replotSoon();
   });
@@ -119,11 +133,35 @@ void Plot::setAxes(const QString& x_title, const QString& y_title) {
   x_title_ = printedTitle(x_title);
   y_title_ = printedTitle(y_title);
   nameForReaders();
+  updateGeometry();
   replotSoon();
 }
 
+void Plot::setTitlesShown(bool x, bool y) {
+  x_title_shown_ = x;
+  y_title_shown_ = y;
+  updateGeometry();
+  replotSoon();
+}
+
+QSize Plot::minimumSizeHint() const {
+  const QFontMetrics metrics(plot_->yAxis->labelFont());
+  int title = 0;
+  for (const QString& line : inTwoLines(axisTitles()[1], metrics))
+    title = std::max(title, metrics.horizontalAdvance(line));
+  // Below stand the numbers and the title of the other axis, above a line of the legend.
+  const bool legend =
+      legend_ && std::count_if(series_.begin(), series_.end(), [](const Series& s) { return s.legend; }) > 1;
+  const int lines = 2 + (legend ? 1 : 0);
+  return {least_width, std::max(least_height, title + lines * metrics.lineSpacing() + around_axes)};
+}
+
+QStringList Plot::drawnTitles() const {
+  return {plot_->xAxis->label(), plot_->yAxis->label()};
+}
+
 QStringList Plot::axisTitles() const {
-  return {shownTitle(x_title_), shownTitle(y_title_)};
+  return {x_title_shown_ ? shownTitle(x_title_) : QString(), y_title_shown_ ? shownTitle(y_title_) : QString()};
 }
 
 /// What a screen reader says, unless the page has given a name of its own.
@@ -164,6 +202,7 @@ void Plot::setContent(std::vector<Series> series, std::vector<Span> spans) {
   marks_.clear();
   rebuild();
   nameForReaders();
+  updateGeometry();  // a legend takes a line
   showAll();
 }
 

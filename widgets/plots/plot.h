@@ -56,8 +56,12 @@ class Plot : public QWidget {
   /// Units of the titles are printed as people write them: "EX / um" becomes "EX / µm". Titles and values have the
   /// units of files; axes and what stands under the cursor those that the user wants.
   void setAxes(const QString& x_title, const QString& y_title);
-  /// Of x and y, as they are drawn.
+  /// Plots beside each other need the titles of their common axes once: units and names stay those of the titles.
+  void setTitlesShown(bool x, bool y);
+  /// Of x and y, as they are drawn; empty: not shown.
   [[nodiscard]] QStringList axisTitles() const;
+  /// The same in the lines that they have room for.
+  [[nodiscard]] QStringList drawnTitles() const;
   /// Replaces all series, spans and marks, and shows everything.
   void setContent(std::vector<Series> series, std::vector<Span> spans = {});
   /// A vertical line with a name at x.
@@ -88,7 +92,8 @@ class Plot : public QWidget {
   [[nodiscard]] const std::vector<Series>& series() const { return series_; }
 
   [[nodiscard]] QSize sizeHint() const override { return {480, 280}; }
-  [[nodiscard]] QSize minimumSizeHint() const override { return {220, 150}; }
+  /// High enough for the title of the upright axis in two lines.
+  [[nodiscard]] QSize minimumSizeHint() const override;
 
  Q_SIGNALS:
   /// What is under the cursor: a value with its uncertainty, else the place on the axes; empty: the cursor has left.
@@ -112,6 +117,7 @@ class Plot : public QWidget {
 
   QCustomPlot* plot_;
   QString x_title_, y_title_;
+  bool x_title_shown_ = true, y_title_shown_ = true;
   QString empty_title_, empty_how_;
   QString own_name_;  ///< for screen readers, while the page gives none
   std::vector<Series> series_;

@@ -47,8 +47,9 @@ void PlotGrid::titleAxes() {
   for (int i = 0; i < std::max(shown_, 1); ++i) {
     const bool last_row = i + columns_ >= shown_;
     const bool first_column = i % columns_ == 0;
-    panels_[static_cast<std::size_t>(i)].plot->setAxes(last_row ? x_title_ : QString(),
-                                                       first_column ? y_title_ : QString());
+    Plot* plot = panels_[static_cast<std::size_t>(i)].plot;
+    plot->setAxes(x_title_, y_title_);
+    plot->setTitlesShown(last_row, first_column);
   }
 }
 

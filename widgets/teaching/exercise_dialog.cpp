@@ -3,7 +3,6 @@
 
 #include <QComboBox>
 #include <QDateTime>
-#include <QDoubleSpinBox>
 #include <QGridLayout>
 #include <QHBoxLayout>
 #include <QLabel>
@@ -20,6 +19,7 @@
 
 #include "core/base/error.h"
 #include "widgets/common/parts.h"
+#include "widgets/common/quantity_box.h"
 #include "widgets/common/words.h"
 #include "widgets/jobs/job_runner.h"
 #include "widgets/models/cells.h"
@@ -243,11 +243,13 @@ void ExerciseDialog::makeRows() {
     row.effect->setAccessibleName(tr("Effect %1").arg(i + 1));
     row.driver = new QComboBox;
     row.driver->setAccessibleName(tr("Driver of effect %1").arg(i + 1));
-    row.size = new QDoubleSpinBox;
+    row.kind = new QComboBox;
+    row.kind->setAccessibleName(tr("Kind of the size of effect %1").arg(i + 1));
+    row.kind->addItem(tr("Displacement"), QStringLiteral("um"));
+    row.kind->addItem(tr("Rotation"), QStringLiteral("urad"));
+    row.size = new QuantityBox(QStringLiteral("um"), 1);
     row.size->setAccessibleName(tr("Size of effect %1").arg(i + 1));
     row.size->setRange(0.0, 10'000.0);
-    row.size->setDecimals(1);
-    row.size->setSuffix(tr(" µm or µrad"));
     row.size->setSpecialValueText(tr("size not given"));
     for (QComboBox* box : {row.family, row.effect, row.driver}) {
       box->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
@@ -256,7 +258,10 @@ void ExerciseDialog::makeRows() {
     // Titles of effects are long: two lines for each.
     lines->addWidget(row.family, 0, 0);
     lines->addWidget(row.effect, 0, 1);
-    lines->addWidget(row.size, 1, 0);
+    auto* size = new QHBoxLayout;
+    size->addWidget(row.kind);
+    size->addWidget(row.size, 1);
+    lines->addLayout(size, 1, 0);
     lines->addWidget(row.driver, 1, 1);
     lines->setColumnStretch(0, 2);
     lines->setColumnStretch(1, 5);
@@ -271,6 +276,8 @@ void ExerciseDialog::makeRows() {
     fillEffects(row);
     connect(row.family, &QComboBox::currentIndexChanged, this, [this, row] { fillEffects(row); });
     connect(row.effect, &QComboBox::currentIndexChanged, this, [this, row] { fillDrivers(row); });
+    connect(row.kind, &QComboBox::currentIndexChanged, this,
+            [row] { row.size->setUnit(row.kind->currentData().toString()); });
     answer_rows_->addWidget(row.widget);
     rows_.push_back(row);
   }

@@ -10,7 +10,6 @@
 #include "core/workflows/exercise.h"
 
 class QComboBox;
-class QDoubleSpinBox;
 class QLabel;
 class QPushButton;
 class QSpinBox;
@@ -21,6 +20,7 @@ namespace spindrift::gui {
 class Callout;
 class Card;
 class JobRunner;
+class QuantityBox;
 class RowsModel;
 class Segments;
 class SessionModel;
@@ -69,7 +69,8 @@ class ExerciseDialog : public QDialog {
     QComboBox* family = nullptr;
     QComboBox* effect = nullptr;
     QComboBox* driver = nullptr;
-    QDoubleSpinBox* size = nullptr;
+    QComboBox* kind = nullptr;  ///< of the size: its data is the unit of files
+    QuantityBox* size = nullptr;
   };
   void refresh();
   void loadChoices();

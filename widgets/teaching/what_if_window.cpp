@@ -2,7 +2,6 @@
 #include "widgets/teaching/what_if_window.h"
 
 #include <QComboBox>
-#include <QDoubleSpinBox>
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QLineEdit>
@@ -21,6 +20,7 @@
 #include "widgets/common/core_sentence.h"
 #include "widgets/common/drawing_painter.h"
 #include "widgets/common/parts.h"
+#include "widgets/common/quantity_box.h"
 #include "widgets/common/words.h"
 #include "widgets/models/cells.h"
 #include "widgets/models/rows_model.h"
@@ -39,6 +39,15 @@ constexpr double largest_arrow = 0.4;  ///< of the longest travel
 
 QString valueUnit(const WhatIfParameter& p) {
   return gainUnitText(p.unit);
+}
+
+/// What one unit of its driver does, in the units on screen.
+QString driverNote(const WhatIfParameter& p) {
+  const ShownUnit gain = shownUnit(gainUnitText(p.gain_unit));
+  const ShownUnit value = shownUnit(valueUnit(p));
+  return WhatIfWindow::tr("%1, %2 %3 per %4")
+      .arg(sentenceStart(coreSentence(p.driver)), decimalText(p.sensitivity * gain.factor / value.factor, 'g', 3),
+           gain.name, value.name);
 }
 
 /// One-sided: there is no less than nothing of it.
@@ -190,6 +199,11 @@ WhatIfWindow::WhatIfWindow(const MachineDescription& machine, WindowDraft draft,
   column->addWidget(makeSplitter(makeControls(), right, 3, 7), 1);
   connect(tabs_, &QTabWidget::currentChanged, this, [this] { refreshTable(what_if_.answer()); });
   connect(artefact_, &QComboBox::activated, this, [this] { refreshTable(what_if_.answer()); });
+  connect(&UnitsNotifier::instance(), &UnitsNotifier::changed, this, [this] {
+    for (std::size_t i = 0; i < controls_.size(); ++i)
+      if (controls_[i].note != nullptr) controls_[i].note->setText(driverNote(what_if_.parameters()[i]));
+    refreshTable(what_if_.answer());
+  });
   showKept();
   refresh();
 }
@@ -255,14 +269,11 @@ void WhatIfWindow::addControl(std::size_t parameter, QLabel* heading, QVBoxLayou
   box->addWidget(title);
   QString tip = name;
   if (!p.geometric) {
-    const QString driver = tr("%1, %2 %3 per %4")
-                               .arg(sentenceStart(coreSentence(p.driver)), decimalText(p.sensitivity, 'g', 3),
-                                    gainUnitText(p.gain_unit), valueUnit(p));
-    auto* note = makeLabel(driver, "secondaryText");
-    note->setWordWrap(true);
-    box->addWidget(note);
+    control.note = makeLabel(driverNote(p), "secondaryText");
+    control.note->setWordWrap(true);
+    box->addWidget(control.note);
     tip = QStringLiteral("%1\n%2").arg(coreSentence(p.physics), formulaText(p.formula));
-    control.text = driver;
+    control.text = sentenceStart(coreSentence(p.driver));
   }
   control.text += QLatin1Char(' ') + name + QLatin1Char(' ') + fromCore(p.id);
   auto* line = new QHBoxLayout;
@@ -270,11 +281,9 @@ void WhatIfWindow::addControl(std::size_t parameter, QLabel* heading, QVBoxLayou
   control.slider->setRange(oneSided(p) ? 0 : -what_if_steps, what_if_steps);
   control.slider->setAccessibleName(name);
   control.slider->setMinimumHeight(sizes::control_height);
-  control.box = new QDoubleSpinBox;
-  control.box->setDecimals(p.largest >= 50.0 ? 1 : 2);
+  control.box = new QuantityBox(valueUnit(p), p.largest >= 50.0 ? 1 : 2);
   control.box->setRange(oneSided(p) ? 0.0 : -p.largest, p.largest);
   control.box->setSingleStep(p.largest / 20.0);
-  control.box->setSuffix(QStringLiteral(" ") + valueUnit(p));
   control.box->setAccessibleName(name);
   control.box->setFixedWidth(box_width);
   control.row->setToolTip(tip);
@@ -286,7 +295,7 @@ void WhatIfWindow::addControl(std::size_t parameter, QLabel* heading, QVBoxLayou
     if (!filling_) changed(parameter, what_if_.parameters()[parameter].largest * step / what_if_steps);
   });
   connect(control.slider, &QSlider::sliderReleased, this, &WhatIfWindow::keep);
-  connect(control.box, &QDoubleSpinBox::valueChanged, this, [this, parameter](double value) {
+  connect(control.box, &QuantityBox::valueChanged, this, [this, parameter](double value) {
     if (!filling_) changed(parameter, value);
   });
   controls_.push_back(control);
@@ -324,7 +333,7 @@ void WhatIfWindow::showKept() {
   if (!kept_.is_object()) kept_ = nlohmann::json::object();
   for (std::size_t i = 0; i < what_if_.parameters().size(); ++i) {
     const auto value = kept_.find(what_if_.parameters()[i].id);
-    const QDoubleSpinBox* box = controls_[i].box;
+    const QuantityBox* box = controls_[i].box;
     if (value != kept_.end() && value->is_number())
       put(i, std::clamp(value->get<double>(), box->minimum(), box->maximum()));
   }
@@ -366,7 +375,7 @@ QSlider* WhatIfWindow::slider(const std::string& id) const {
   return controls_[what_if_.find(id)].slider;
 }
 
-QDoubleSpinBox* WhatIfWindow::box(const std::string& id) const {
+QuantityBox* WhatIfWindow::box(const std::string& id) const {
   return controls_[what_if_.find(id)].box;
 }
 

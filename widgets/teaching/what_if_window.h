@@ -11,7 +11,6 @@
 #include "widgets/commands/draft.h"
 
 class QComboBox;
-class QDoubleSpinBox;
 class QLabel;
 class QLineEdit;
 class QSlider;
@@ -21,6 +20,7 @@ class QVBoxLayout;
 namespace spindrift::gui {
 
 class Callout;
+class QuantityBox;
 class RowsModel;
 class View3D;
 
@@ -57,7 +57,7 @@ class WhatIfWindow : public QDialog {
   [[nodiscard]] const WindowDraft& draft() const { return draft_; }
   [[nodiscard]] const WhatIf& model() const { return what_if_; }
   [[nodiscard]] QSlider* slider(const std::string& id) const;
-  [[nodiscard]] QDoubleSpinBox* box(const std::string& id) const;
+  [[nodiscard]] QuantityBox* box(const std::string& id) const;
   [[nodiscard]] RowsModel* partRows() const { return part_rows_; }
   [[nodiscard]] RowsModel* pointRows() const { return point_rows_; }
   [[nodiscard]] RowsModel* artefactRows() const { return artefact_rows_; }
@@ -73,8 +73,9 @@ class WhatIfWindow : public QDialog {
     QWidget* row = nullptr;
     QLabel* heading = nullptr;  ///< of its group
     QSlider* slider = nullptr;
-    QDoubleSpinBox* box = nullptr;
-    QString text;  ///< searched by filter()
+    QuantityBox* box = nullptr;
+    QLabel* note = nullptr;  ///< of an effect: what its driver does
+    QString text;            ///< searched by filter()
   };
   QWidget* makeControls();
   void addControl(std::size_t parameter, QLabel* heading, QVBoxLayout* column);

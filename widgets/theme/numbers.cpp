@@ -19,7 +19,10 @@ QString decimalPoint() {
 }  // namespace
 
 QString decimalText(double value, char format, int digits) {
-  QString text = QString::number(value, format, digits);
+  // As people write it: powers of ten only where the number would be longer than they are.
+  constexpr double long_number = 1e7;
+  const bool plain = format == 'g' && std::abs(value) >= std::pow(10.0, digits) - 0.5 && std::abs(value) < long_number;
+  QString text = plain ? QString::number(value, 'f', 0) : QString::number(value, format, digits);
   static const QRegularExpression zero(QStringLiteral("\\A-0(\\.0*)?\\z"));
   if (text.contains(zero)) text.remove(0, 1);  // a rounded zero has no sign
   text.replace(QLatin1Char('-'), true_minus);

@@ -275,10 +275,11 @@ std::vector<OverlayText> tableScale(const Camera& camera, const QSizeF& size, co
     const auto p_low = camera.project(edge_low, size);
     const auto p_high = camera.project(edge_high, size);
     if (!p_low || !p_high) continue;
-    const bool use_low = i == 0 || up == 1 ? p_low->y() >= p_high->y() : p_low->x() <= p_high->x();
+    // Seen along the vertical both edges of one axis are as high: rounding must not say which.
+    const bool by_height = (i == 0 || up == 1) && std::abs(p_low->y() - p_high->y()) > 1.0;
+    const bool use_low = by_height ? p_low->y() >= p_high->y() : p_low->x() <= p_high->x();
     const double fixed = use_low ? low[other] : high[other];
-    double last_x = -1e9;
-    double last_y = -1e9;
+    QRectF last;
     for (double v = std::ceil(low[i] / spacing) * spacing; v <= high[i] + 1e-9; v += spacing) {
       Eigen::Vector3d p = low;
       p[up] = low[up];
@@ -298,21 +299,23 @@ std::vector<OverlayText> tableScale(const Camera& camera, const QSizeF& size, co
       const double w = metrics.horizontalAdvance(text);
       const QPointF anchor = *at + out * 9;
       const QPointF baseline(anchor.x() - w / 2 + out.x() * w / 2, anchor.y() + metrics.ascent() / 2 - 1 + out.y() * 4);
-      if (std::abs(baseline.x() - last_x) < w + 6 && std::abs(baseline.y() - last_y) < metrics.height()) continue;
-      last_x = baseline.x();
-      last_y = baseline.y();
+      const QRectF box(baseline.x(), baseline.y() - metrics.ascent(), w, metrics.height());
+      if (box.adjusted(-6, 0, 6, 0).intersects(last)) continue;
+      last = box;
       add(baseline, i == unit_axis && v + spacing > high[i] + 1e-9 ? text + QLatin1Char(' ') + unit.name : text);
     }
   }
   return texts;
 }
 
-void paintTableScale(QPainter& painter, const Camera& camera, const QSizeF& size, const MachineBodies& bodies) {
+void paintTableScale(QPainter& painter, const Camera& camera, const QSizeF& size, const MachineBodies& bodies,
+                     const QRectF& bar) {
   painter.save();
   painter.setFont(textFont(table_scale_px));
   const QRectF picture(QPointF(0, 0), size);
   for (const OverlayText& text : tableScale(camera, size, bodies))
-    if (picture.contains(text.box)) haloText(painter, text.baseline, text.text, theme().text_secondary);
+    if (picture.contains(text.box) && !bar.intersects(text.box))
+      haloText(painter, text.baseline, text.text, theme().text_secondary);
   painter.restore();
 }
 

@@ -33,8 +33,9 @@ struct OverlayText {
 /// Numbers in mm along two edges of the table, wherever they stand.
 [[nodiscard]] std::vector<OverlayText> tableScale(const Camera& camera, const QSizeF& size,
                                                   const MachineBodies& bodies);
-/// Those of them that stand in the picture.
-void paintTableScale(QPainter& painter, const Camera& camera, const QSizeF& size, const MachineBodies& bodies);
+/// Those of them that stand in the picture, and not behind the colour bar.
+void paintTableScale(QPainter& painter, const Camera& camera, const QSizeF& size, const MachineBodies& bodies,
+                     const QRectF& bar = {});
 /// Numbers and titles along the axes of a surface.
 void paintSurfaceAxes(QPainter& painter, const Camera& camera, const QSizeF& size, const ViewSurface& surface,
                       const SurfaceBox& box, const ColourScale& scale);

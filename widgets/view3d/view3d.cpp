@@ -370,17 +370,17 @@ void View3D::paintOverlay(QPainter& painter, const QSize& size, bool with_tools)
   }
   const QSizeF area(size);
   const QRectF whole(QPointF(0, 0), area);
+  const QMarginsF beside = with_tools ? tools_->margins(arrangement_.tools_in_column) : QMarginsF();
+  QRectF bar;
+  if (showsScale()) bar = paintColourBar(painter, whole.marginsRemoved(beside), *scale_, arrangement_.bar_below);
   if (bodies_) {
     if (machine_visible_) {
       paintMotions(painter, camera_, area, *bodies_);
     } else {
-      paintTableScale(painter, camera_, area, *bodies_);
+      paintTableScale(painter, camera_, area, *bodies_, bar);
     }
   }
   if (surface_box_) paintSurfaceAxes(painter, camera_, area, *surface_, *surface_box_, *scale_);
-  const QMarginsF beside = with_tools ? tools_->margins(arrangement_.tools_in_column) : QMarginsF();
-  QRectF bar;
-  if (showsScale()) bar = paintColourBar(painter, whole.marginsRemoved(beside), *scale_, arrangement_.bar_below);
   painter.setFont(textFont(sizes::font_secondary));
   const QFontMetricsF metrics(painter.font());
   const double room = area.width() - 48 - (bar.isEmpty() || arrangement_.bar_below ? 0.0 : area.width() - bar.left());

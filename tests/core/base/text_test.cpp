@@ -4,8 +4,11 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "core/base/natural_order.h"
 
 namespace spindrift {
 namespace {
@@ -63,6 +66,31 @@ TEST(Text, ListsAndEscapes) {
   EXPECT_EQ(shortenedList(names, 2, 1), "F1 and 2 more");
   EXPECT_EQ(splitList(" F1, F2,,F3 "), names);
   EXPECT_EQ(escapedXml("<a & \"b\">"), "&lt;a &amp; &quot;b&quot;&gt;");
+}
+
+TEST(NaturalOrder, NumbersInNamesCountByTheirValue) {
+  std::vector<std::string> names{"H1@90",
+                                 "F10_EX",
+                                 "F2",
+                                 "F10",
+                                 "B1/p10",
+                                 "F1",
+                                 "H1",
+                                 "B1/p2",
+                                 "f1",
+                                 "F01",
+                                 "F9_EX",
+                                 "F123456789012345678901",
+                                 "F123456789012345678902",
+                                 ""};
+  std::sort(names.begin(), names.end(), NaturalOrder());
+  EXPECT_EQ(names, (std::vector<std::string>{"", "B1/p2", "B1/p10", "F01", "F1", "F2", "F9_EX", "F10", "F10_EX",
+                                             "F123456789012345678901", "F123456789012345678902", "H1", "H1@90", "f1"}));
+  const NaturalOrder before;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    for (std::size_t k = 0; k < names.size(); ++k) EXPECT_EQ(before(names[i], names[k]), i < k) << names[i] << names[k];
+  EXPECT_TRUE(before(std::pair{std::string("F2"), 1}, std::pair{std::string("F10"), 0}));
+  EXPECT_TRUE(before(std::pair{std::string("F2"), 0}, std::pair{std::string("F2"), 1}));
 }
 
 }  // namespace

@@ -39,6 +39,17 @@ Campaign campaignWith(std::vector<double> on) {
   return c;
 }
 
+TEST(Verify, PointsAreListedAsPeopleCount) {
+  ObservationSet before = measured(30.0, 0.2, 1);
+  ObservationSet after = measured(2.0, 0.2, 2);
+  for (ObservationSet* set : {&before, &after})
+    for (Observation& o : set->rows) o.point = "F" + std::to_string(2 + 2 * std::stoi(o.point.substr(1)));
+  std::vector<std::string> points;
+  for (const VerifyPoint& p : verifyCompensation(before, after, VerifyRequest{}).points)
+    if (points.empty() || points.back() != p.point) points.push_back(p.point);
+  EXPECT_EQ(points, (std::vector<std::string>{"F2", "F4", "F6", "F8", "F10", "F12", "F14", "F16"}));
+}
+
 TEST(Verify, PointsThatStandElsewhereAreNotCompared) {
   const ObservationSet before = measured(30.0, 0.2, 1);
   ObservationSet after = measured(2.0, 0.2, 2);

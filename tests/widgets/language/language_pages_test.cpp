@@ -35,6 +35,7 @@
 #include "widgets/common/help_text.h"
 #include "widgets/common/languages.h"
 #include "widgets/common/preferences.h"
+#include "widgets/common/quantity_box.h"
 #include "widgets/export/exportable.h"
 #include "widgets/jobs/activity_dialog.h"
 #include "widgets/pages/page.h"
@@ -234,37 +235,109 @@ INSTANTIATE_TEST_SUITE_P(Demos, LanguageOfPages,
                          ::testing::Values("fiducials", "holes", "balls", "scans", "discrepancy", "own_pattern"),
                          [](const auto& test) { return std::string(test.param); });
 
-class UnitsOfPages : public StoryTest, public ::testing::WithParamInterface<const char*> {
+class UnitsTest : public StoryTest {
  protected:
+  void SetUp() override {
+    StoryTest::SetUp();
+    Preferences wanted;
+    wanted.units = {true, true, true};
+    setPreferences(wanted);
+    // Typed into a file: the unit is that of its key.
+    for (const char* field :
+         {"Apart / mm", "Certificate ± / µm", "Certified position along the bar / mm", "Expansion / (µm/(m·K))",
+          "Fixed bearing\n/ mm", "From\n/ mm", "Hole diameter / mm", "Pitch\n/ mm", "Radius\n/ mm", "Reference at / mm",
+          "Resolution\n/ µm", "Temperature / °C", "To\n/ mm", "x / mm", "y / mm", "z / mm", "Ø / mm", "At / mm"})
+      told_.insert(QString::fromUtf8(field));
+  }
   void TearDown() override {
     StoryTest::TearDown();
     setShownUnits({});
   }
-};
-
-TEST_P(UnitsOfPages, AreThoseOfThePreferencesAndNoOthers) {
-  Preferences wanted;
-  wanted.units = {true, true, true};
-  setPreferences(wanted);
-  static const QRegularExpression of_files(QStringLiteral("(?<![\\w])(µm|mm|µrad|°C|(?<=\\d )K|(?<=/)K)(?![\\w])"),
-                                           QRegularExpression::UseUnicodePropertiesOption);
-  // Typed into a file: the unit is that of its key.
-  std::set<QString> told;
-  for (const char* field :
-       {"Apart / mm", "Certificate ± / µm", "Certified position along the bar / mm", "Expansion / (µm/(m·K))",
-        "Fixed bearing\n/ mm", "From\n/ mm", "Hole diameter / mm", "Pitch\n/ mm", "Radius\n/ mm", "Reference at / mm",
-        "Resolution\n/ µm", "Temperature / °C", "To\n/ mm", "x / mm", "y / mm", "z / mm", "Ø / mm", "At / mm"})
-    told.insert(QString::fromUtf8(field));
-  walk(QString::fromLatin1(GetParam()), [&](const std::string& what) {
-    forEachText(*window_, [&](const QString& text) {
-      if (of_files.match(text).hasMatch() && told.insert(text).second)
+  /// Nothing that `root` shows has a unit of files.
+  void expectChosenUnits(QWidget& root, const std::string& what) {
+    static const QRegularExpression of_files(
+        QStringLiteral("(?<![\\w])(µm|mm|µrad|°C|(?<=\\d )K|(?<=/)K|(?<=[Pp]er )K)(?![\\w])"),
+        QRegularExpression::UseUnicodePropertiesOption);
+    forEachText(root, [&](const QString& text) {
+      if (of_files.match(text).hasMatch() && told_.insert(text).second)
         ADD_FAILURE() << what << ": \"" << text.toStdString() << "\"";
     });
-  });
+  }
+
+ private:
+  std::set<QString> told_;
+};
+
+class UnitsOfPages : public UnitsTest, public ::testing::WithParamInterface<const char*> {};
+
+TEST_P(UnitsOfPages, AreThoseOfThePreferencesAndNoOthers) {
+  walk(QString::fromLatin1(GetParam()), [this](const std::string& what) { expectChosenUnits(*window_, what); });
 }
 
 INSTANTIATE_TEST_SUITE_P(Demos, UnitsOfPages, ::testing::Values("fiducials", "holes", "balls", "scans", "discrepancy"),
                          [](const auto& test) { return std::string(test.param); });
+
+class UnitsOfWindows : public UnitsTest {
+ protected:
+  void expectChosenUnitsAndClose(QWidget* dialog, const std::string& what) {
+    ASSERT_NE(dialog, nullptr) << what;
+    dialog->show();
+    wait();
+    QCoreApplication::processEvents();
+    expectChosenUnits(*dialog, what);
+    for (auto* tabs : dialog->findChildren<QTabWidget*>()) {
+      for (int i = 1; i < tabs->count(); ++i) {
+        tabs->setCurrentIndex(i);
+        QCoreApplication::processEvents();
+        expectChosenUnits(*dialog, what + ", " + tabs->tabText(i).toStdString());
+      }
+    }
+    dialog->close();
+    QCoreApplication::processEvents();
+  }
+};
+
+TEST_F(UnitsOfWindows, AreThoseOfThePreferencesAndNoOthers) {
+  expectChosenUnitsAndClose(window_->openWhatIf(), "what if");
+  ArtefactDesigner designer;
+  expectChosenUnitsAndClose(&designer, "artefact designer");
+  ExerciseDialog* exercise = window_->openExercise();
+  Q_EMIT exercise->startWanted({5, ExerciseLevel::Easy});
+  wait();
+  expectChosenUnitsAndClose(exercise, "exercise");
+  window_->openLiveCompensation();
+  QCoreApplication::processEvents();
+  expectChosenUnits(*window_, "live compensation");
+  window_->openPlant();
+  QCoreApplication::processEvents();
+  expectChosenUnits(*window_, "plant");
+  expectChosenUnitsAndClose(window_->openNotes(), "notes");
+  expectChosenUnitsAndClose(window_->openActivity(), "jobs and messages");
+  NewMeasurementDialog measurement(std::nullopt);
+  expectChosenUnitsAndClose(&measurement, "new measurement");
+  window_->findCommand();
+  expectChosenUnitsAndClose(window_->findChild<CommandPalette*>(), "find a command");
+}
+
+TEST_F(UnitsOfWindows, FollowTheChoiceWhileTheyAreOpen) {
+  setPreferences({});
+  WhatIfWindow* what_if = window_->openWhatIf();
+  what_if->set("column.bending.a", 2.0);
+  ArtefactDesigner designer;
+  designer.show();
+  Preferences wanted;
+  wanted.units = {true, true, true};
+  setPreferences(wanted);
+  wait();
+  expectChosenUnits(*what_if, "what if");
+  expectChosenUnits(designer, "artefact designer");
+  EXPECT_EQ(what_if->box("column.bending.a")->text(), QStringLiteral("3.60 °F"));
+  EXPECT_EQ(what_if->box("column.bending.a")->value(), 2.0);
+  designer.number("size x")->setValue(25.4);
+  EXPECT_EQ(designer.number("size x")->cleanText(), QStringLiteral("1.000"));
+  setPreferences({});
+  EXPECT_EQ(what_if->box("column.bending.a")->text(), QStringLiteral("2.00 K"));
+}
 
 class LanguageOfWindows : public LanguagePagesTest {
  protected:

@@ -435,6 +435,11 @@ TEST_F(UnitsTest, AreConvertedWhereTheyAreReadAndNowhereElse) {
   EXPECT_EQ(onScreen(QStringLiteral("20.0 ± 0.5 °C")), QStringLiteral("68.0 ± 0.9 °F"))
       << "an uncertainty is a difference";
   EXPECT_EQ(onScreen(QStringLiteral("the room within 2.0 K")), QStringLiteral("the room within 3.6 °F"));
+  EXPECT_EQ(onScreen(QStringLiteral("138 of 274: y 25.4 mm")), QStringLiteral("138 of 274: y 1.000 in"));
+  EXPECT_EQ(onScreen(QStringLiteral("rms 3.41 → 0.58 µm")), QStringLiteral("rms 134.3 → 22.8 µin"));
+  EXPECT_EQ(decimalText(9843.2, 'g', 3), QStringLiteral("9843")) << "no powers of ten where people write none";
+  EXPECT_EQ(decimalText(1.5e9, 'g', 3), QStringLiteral("1.5e+09"));
+  EXPECT_EQ(decimalText(98.43, 'g', 3), QStringLiteral("98.4"));
   EXPECT_EQ(onScreen(QStringLiteral("48.5 µrad")), QStringLiteral("10.00 arcsec"));
   EXPECT_EQ(onScreen(QStringLiteral("0.0 to 25.4 mm")), QStringLiteral("0.000 to 1.000 in"));
   EXPECT_EQ(onScreen(QStringLiteral("x 25.4, y 50.8, z 0.0 mm")), QStringLiteral("x 1.000, y 2.000, z 0.000 in"));

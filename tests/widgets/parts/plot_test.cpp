@@ -13,6 +13,7 @@
 #include "core/base/csv.h"
 #include "tests/support/temp_folder.h"
 #include "widgets/image_view/image_view.h"
+#include "widgets/plots/plot_grid.h"
 #include "widgets/plots/qcustomplot_header.h"
 #include "widgets/theme/shown_units.h"
 
@@ -113,6 +114,41 @@ TEST(Plot, TellsTheValueUnderTheCursorWithItsUncertainty) {
   };
   EXPECT_EQ(moveTo(plot.pixelOf(1.0, 12.43) + QPointF(3, -3)), "F1, Time 1 h: 12.4 ± 0.3 µm");
   EXPECT_EQ(moveTo(plot.pixelOf(1.5, 2.0)).rfind("Time = 1.5 h,  EX = 2 µm", 0), 0U) << "between the values: the place";
+}
+
+TEST(PlotGrid, EveryPanelHasTheUnitsOfThePreferences) {
+  PlotGrid grid;
+  grid.setAxes(QStringLiteral("Position / mm"), QStringLiteral("EX / um"));
+  std::vector<Series> all;
+  for (int i = 0; i < 4; ++i) {
+    Series s;
+    s.name = QStringLiteral("A%1").arg(i + 1);
+    s.x = {0.0, 254.0, 508.0};
+    s.y = {0.0, 12.7, 25.4};
+    all.push_back(s);
+  }
+  grid.setContent(all);
+  grid.resize(900, 700);
+  grid.show();
+  setShownUnits({true, true, true});
+  QCoreApplication::processEvents();
+  ASSERT_EQ(grid.panels().size(), 4U);
+  for (Plot* panel : grid.panels()) {
+    auto* canvas = panel->findChild<QCustomPlot*>();
+    QSignalSpy hovered(panel, &Plot::hovered);
+    const QPointF place = panel->pixelOf(254.0, 12.7);
+    QMouseEvent move(QEvent::MouseMove, place, canvas->mapToGlobal(place), Qt::NoButton, Qt::NoButton, Qt::NoModifier);
+    QCoreApplication::sendEvent(canvas, &move);
+    ASSERT_FALSE(hovered.empty());
+    EXPECT_TRUE(hovered.back()[0].toString().endsWith(QStringLiteral("Position 10 in: 500 µin")))
+        << hovered.back()[0].toString().toStdString();
+    EXPECT_EQ(canvas->yAxis->ticker()->tickOrigin(), 0.0);
+    canvas->replot();
+    double largest = 0.0;
+    for (const QString& label : canvas->yAxis->tickVectorLabels()) largest = std::max(largest, label.toDouble());
+    EXPECT_GE(largest, 500.0) << "numbers of the axis are µin";
+  }
+  setShownUnits({});
 }
 
 TEST(Plot, HasTheUnitsOfThePreferencesAndIsExportedInThoseOfFiles) {

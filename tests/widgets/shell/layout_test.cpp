@@ -95,8 +95,12 @@ QStringList cutCells(const QTableView& table) {
       if (table.indexWidget(index) != nullptr) continue;
       const QVariant font = index.data(Qt::FontRole);
       const QFontMetrics metrics(font.isValid() ? font.value<QFont>() : table.font());
-      const int picture = index.data(Qt::DecorationRole).isNull() ? 0 : table.iconSize().width();
-      const int width = cell.width() - 2 * padding - std::max(0, picture);
+      const int icon = table.iconSize().isValid()
+                           ? table.iconSize().width()
+                           : table.style()->pixelMetric(QStyle::PM_SmallIconSize, nullptr, &table);
+      const QVariant decoration = index.data(Qt::DecorationRole);
+      const bool none = decoration.isNull() || (decoration.canConvert<QIcon>() && decoration.value<QIcon>().isNull());
+      const int width = cell.width() - 2 * padding - (none ? 0 : icon);
       const bool fits =
           table.wordWrap()
               ? metrics.boundingRect(QRect(0, 0, width, 10000), Qt::TextWordWrap, text).height() <= cell.height() + 1 &&
@@ -123,6 +127,10 @@ QStringList cutTexts(const QWidget& root) {
       if (all > bar->width()) cut << QStringLiteral("tabs, of which the last is ") + bar->tabText(bar->count() - 1);
     }
     if (const auto* table = qobject_cast<QTableView*>(w)) cut << cutCells(*table);
+    if (const auto* plot = qobject_cast<Plot*>(w); plot != nullptr && !plot->empty()) {
+      for (const QString& title : plot->drawnTitles())
+        if (title.contains(QChar(0x2026))) cut << QStringLiteral("axis: ") + title;
+    }
     if (const auto* text = qobject_cast<QTextEdit*>(w); text != nullptr && text->horizontalScrollBar()->maximum() > 0)
       cut << QStringLiteral("text of %1: %2 px of %3")
                  .arg(text->accessibleName())
@@ -329,7 +337,8 @@ class LayoutTest : public StoryTest, public ::testing::WithParamInterface<std::t
       (void)QTest::qWaitFor(
           [this] {
             const Page* page = window_->currentPage();
-            return page->height() >= page->minimumSizeHint().height() && squeezedViews(*page).isEmpty();
+            return page->height() >= page->minimumSizeHint().height() && squeezedViews(*page).isEmpty() &&
+                   poorTables(*page, window_->help()->isVisible()).isEmpty();
           },
           1000);
       expectFits(what + " at " + std::to_string(size.width()) + (help ? " with the help" : " without help"));

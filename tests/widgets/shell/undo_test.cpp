@@ -25,6 +25,7 @@
 #include "tests/widgets/support/story_support.h"
 #include "widgets/commands/commands.h"
 #include "widgets/common/parts.h"
+#include "widgets/common/quantity_box.h"
 #include "widgets/models/rows_model.h"
 #include "widgets/pages/discrepancy/discrepancy_page.h"
 #include "widgets/pages/machine/machine_page.h"

@@ -17,6 +17,7 @@
 
 #include "tests/support/temp_folder.h"
 #include "widgets/common/parts.h"
+#include "widgets/common/quantity_box.h"
 #include "widgets/jobs/job_runner.h"
 #include "widgets/models/rows_model.h"
 #include "widgets/models/session_model.h"

@@ -340,6 +340,44 @@ TEST_F(ViewToolsTest, HeatMapsFillTheirPane) {
   }
 }
 
+TEST_F(ViewToolsTest, NumbersAlongBothEdgesOfTheTableAreSeenBesideTheColourBar) {
+  const auto of = [](const std::string& chain) {
+    return MachineDescription::parse(
+        JsonNode::parse(R"({"format":"spindrift-machine","version":1,"name":"mill","chain":")" + chain +
+                            R"(","axes":[{"name":"X","travel_mm":[0,560]},{"name":"Y","travel_mm":[0,500]},)" +
+                            R"({"name":"Z","travel_mm":[0,500]}]})",
+                        "machine.json"),
+        "machine.json");
+  };
+  for (const char* chain : {"V [w-X'-Y'-b-Z-(C)-t]", "H [w-Z'-b-X-Y-(C)-t]"}) {
+    const MachineDescription machine = of(chain);
+    view_.setMachine(machine);
+    view_.setMachineVisible(false);
+    view_.setField(nullptr);
+    view_.setPoints({point(QStringLiteral("F1"), {40, 45, 20})});
+    const MachineBodies bodies = machineBodies(machine);
+    for (const QSize size : {QSize(306, 332), QSize(530, 480), QSize(760, 480), QSize(520, 700)}) {
+      view_.resize(size);
+      view_.resetCamera(StandardView::Top);
+      (void)view_.grab();
+      QApplication::processEvents();
+      (void)view_.grab();
+      const QRectF pane(QPointF(0, 0), QSizeF(size));
+      const QRectF table = view_.camera().frame(bodies.table_low_mm, bodies.table_high_mm, QSizeF(size));
+      const double bar =
+          view_.arrangement().bar_below ? size.width() : size.width() - colourBarWidth(*view_.colourScale());
+      int beside = 0, below = 0;
+      for (const OverlayText& text : tableScale(view_.camera(), QSizeF(size), bodies)) {
+        EXPECT_TRUE(pane.contains(text.box)) << chain << ", " << size.width() << ": " << text.text.toStdString();
+        EXPECT_LE(text.box.right(), bar + 1) << chain << ", " << size.width() << ": " << text.text.toStdString();
+        (text.box.center().y() > table.bottom() ? below : beside) += 1;
+      }
+      EXPECT_GE(beside, 3) << chain << ", " << size.width();
+      EXPECT_GE(below, 3) << chain << ", " << size.width();
+    }
+  }
+}
+
 TEST_F(ViewToolsTest, ArrowsOnAHeatMapAreSeen) {
   const QImage without = view_.grab().toImage();
   view_.setArrows({{{60, 40, 0}, {20, 0, 0}, Tone::Good}}, 3000.0);

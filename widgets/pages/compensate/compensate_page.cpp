@@ -27,7 +27,6 @@
 #include "core/tasks/task_options.h"
 #include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
-#include "widgets/common/scrolling.h"
 #include "widgets/common/words.h"
 #include "widgets/common/wrap_layout.h"
 #include "widgets/models/rows_model.h"
@@ -123,8 +122,8 @@ CompensatePage::CompensatePage(PageContext page_context, QWidget* parent)
   files_column->setSpacing(8);
   file_table_ = makeSentenceTable(files_, tr("Files for the control"), tr("Files appear here."));
   files_column->addWidget(file_table_, 4);
-  convention_ = makeLabel({}, "instruction");
-  convention_->setWordWrap(true);
+  convention_ = new WrappedLabel;
+  convention_->setProperty("role", QStringLiteral("instruction"));
   files_column->addWidget(convention_);
   preview_ = new QPlainTextEdit;
   preview_->setReadOnly(true);
@@ -133,7 +132,7 @@ CompensatePage::CompensatePage(PageContext page_context, QWidget* parent)
   preview_->setFont(QFontDatabase::systemFont(QFontDatabase::FixedFont));
   preview_->setAccessibleName(tr("Beginning of the file"));
   files_column->addWidget(preview_, 4);
-  tabs_->addTab(makeScrolling(files), tr("Files and their signs"));
+  tabs_->addTab(files, tr("Files and their signs"));
   left->body()->addWidget(tabs_, 1);
 
   auto* right = new Card;

@@ -26,6 +26,7 @@ class NumberTile;
 class RowsModel;
 class Segments;
 class View3D;
+class WrappedLabel;
 
 class CompensatePage : public Page {
   Q_OBJECT
@@ -72,7 +73,7 @@ class CompensatePage : public Page {
   QTableView* point_table_;
   RowsModel* files_;
   QTableView* file_table_;
-  QLabel* convention_;
+  WrappedLabel* convention_;
   QPlainTextEdit* preview_;
   Segments* arrows_;
   QCheckBox* machine_;

@@ -130,7 +130,8 @@ MachinePage::MachinePage(PageContext page_context, QWidget* parent)
   for (const int column : {4, 7}) axes_->setItemDelegateForColumn(column, new KindWords(axes_));
   card->body()->addWidget(axes_, 2);
   card->body()->addWidget(makeLabel(tr("Measuring points"), "sectionTitle"));
-  points_ = makeEditor({tr("Point"), tr("Kind"), tr("x / mm"), tr("y / mm"), tr("z / mm")}, tr("Measuring points"));
+  points_ = makeEditor({tr("Point"), tr("Kind"), tr("x / mm"), tr("y / mm"), tr("z / mm")}, tr("Measuring points"),
+                       tr("No measuring point yet."));
   points_->setItemDelegateForColumn(1, new KindWords(points_));
   card->body()->addWidget(points_, 3);
   auto* point_buttons = new WrapLayout;

@@ -90,9 +90,13 @@ QWidget* CycleModelPage::makeBarPart() {
   prepare(trust_, 0.01, 100, 0.1, tr("Standard uncertainty of that growth"));
   card->body()->addWidget(second_axis_);
   extend->addWidget(new QLabel(tr("Expansion of the bar")));
-  extend->addWidget(growth_);
-  extend->addWidget(new QLabel(QStringLiteral("±")));
-  extend->addWidget(trust_);
+  auto* known = new QWidget;
+  auto* value = new QHBoxLayout(known);
+  value->setContentsMargins(0, 0, 0, 0);
+  value->addWidget(growth_);
+  value->addWidget(new QLabel(QStringLiteral("±")));
+  value->addWidget(trust_);
+  extend->addWidget(known);
   card->body()->addLayout(extend);
   auto* unnoticed = makeLabel(tr("Effect of an undetected expansion of the second axis"), "sectionTitle");
   unnoticed->setWordWrap(true);

@@ -406,7 +406,7 @@ void ScanCapturePage::showProfile(int index) {
       slider_->setValue(index);
     }
     slider_text_->setText(
-        onScreen(tr("%1 of %2, y %3 mm")
+        onScreen(tr("%1 of %2: y %3 mm")
                      .arg(index + 1)
                      .arg(picture_.scan->profileCount())
                      .arg(decimalText(carriageOf(*picture_.scan, static_cast<std::size_t>(index)), 'f', 2))));

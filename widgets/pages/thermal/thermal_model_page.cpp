@@ -58,7 +58,8 @@ ThermalModelPage::ThermalModelPage(PageContext page_context, QWidget* parent)
                              tr("It needs a log with at least one displacement (a column ending in _um or _urad)."));
   top->body()->addWidget(series_plot_, 1);
   content()->addWidget(makeSplitter(top, makeDetails(), 6, 8), 1);
-  for (Plot* plot : {series_plot_, step_plot_, residual_plot_, updates_->plot(), iso_->plot()}) showHints(plot);
+  for (Plot* plot : {series_plot_, step_plot_, residual_plot_, updates_->plot(), iso_->plot(), iso_->plot(true)})
+    showHints(plot);
 
   connect(identify_, &QPushButton::clicked, this, [this] { runTask("thermal"); });
   connect(what_, &Segments::chosen, this, &ThermalModelPage::showSeries);

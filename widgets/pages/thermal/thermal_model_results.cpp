@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/base/units.h"
+#include "core/machine/driver_words.h"
 #include "core/thermal/response_fit.h"
 #include "core/workflows/campaign_series.h"
 #include "widgets/common/core_sentence.h"
@@ -39,6 +40,16 @@ QString outputTitle(const std::string& name) {
   for (const char* ending : {"_um_per_m", "_um", "_urad", "_nm"})
     if (text.endsWith(QLatin1String(ending))) text.chop(static_cast<int>(qstrlen(ending)));
   return text.replace(QLatin1Char('_'), QLatin1Char(' '));
+}
+
+/// What one unit of the input does: "µm/K"; of one without a unit, such as a switch, the unit of the output.
+QString gainUnitOf(const QString& output, const std::string& input) {
+  QString unit = fromCore(signalTitle(input).unit);
+  if (unit.isEmpty()) return output;
+  if (unit == QStringLiteral("°C")) unit = QStringLiteral("K");
+  const qsizetype line = output.indexOf(QLatin1Char('/'));
+  if (line >= 0) return QStringLiteral("%1/(%2·%3)").arg(output.left(line), output.mid(line + 1), unit);
+  return output + QLatin1Char('/') + (unit.contains(QLatin1Char('/')) ? QStringLiteral("(%1)").arg(unit) : unit);
 }
 
 double numberAt(const nlohmann::json& json, const char* key) {
@@ -208,8 +219,9 @@ void ThermalModelPage::showLags() {
   const nlohmann::json& structure = result_->structure;
   // Where the residual of the ARX equation is not white its uncertainties are no intervals: marked.
   const bool holds = structure.value("uncertainty_holds", true);
-  const auto add = [&](const QString& input, double tau_s, double sigma_s, const Cell& gain, const QString& unit) {
+  const auto add = [&](const QString& input, double tau_s, double sigma_s, Cell gain, const QString& unit) {
     Row row;
+    gain.unit = unit;
     row.id = QString::number(rows.size());
     Cell tau{tau_s > 0 ? durationText(tau_s, sigma_s) : tau_s == 0.0 ? tr("at once") : tr("static gain")};
     if (!holds) {
@@ -219,19 +231,24 @@ void ThermalModelPage::showLags() {
     }
     const Cell pole =
         tau_s > 0 ? quantityCell(-seconds_per_hour / tau_s, sigma_s * seconds_per_hour / (tau_s * tau_s)) : dashCell();
-    row.cells = {nameCell(input), tau, pole, gain, Cell{unit}};
+    Cell unit_cell{unit};
+    unit_cell.unit = unit;
+    row.cells = {nameCell(input), tau, pole, gain, unit_cell};
     rows.push_back(std::move(row));
   };
   const nlohmann::json none = nlohmann::json::array();
   for (const auto& t : structure.value("time_constants", none))
     add(tr("pole"), numberAt(t, "value_s"), numberAt(t, "standard_uncertainty_s"), dashCell(), {});
-  for (const auto& l : structure.value("lags", none))
-    add(fromCore(l.value("input", std::string())), numberAt(l, "tau_s"), numberAt(l, "tau_standard_uncertainty_s"),
-        quantityCell(numberAt(l, "gain"), numberAt(l, "gain_standard_uncertainty")),
-        tr("%1 per unit").arg(outputUnit()));
-  for (const auto& g : structure.value("static_gain", none))
-    add(fromCore(g.value("input", std::string())), -1.0, std::nan(""),
-        quantityCell(numberAt(g, "value"), numberAt(g, "standard_uncertainty")), tr("%1 per unit").arg(outputUnit()));
+  for (const auto& l : structure.value("lags", none)) {
+    const std::string input = l.value("input", std::string());
+    add(fromCore(input), numberAt(l, "tau_s"), numberAt(l, "tau_standard_uncertainty_s"),
+        quantityCell(numberAt(l, "gain"), numberAt(l, "gain_standard_uncertainty")), gainUnitOf(outputUnit(), input));
+  }
+  for (const auto& g : structure.value("static_gain", none)) {
+    const std::string input = g.value("input", std::string());
+    add(fromCore(input), -1.0, std::nan(""), quantityCell(numberAt(g, "value"), numberAt(g, "standard_uncertainty")),
+        gainUnitOf(outputUnit(), input));
+  }
   if (rows.empty() && !result_->model.outputs.empty()) {
     const ThermalOutput& output = result_->model.outputs.front();
     std::vector<std::size_t> order(output.terms.size());
@@ -246,8 +263,11 @@ void ThermalModelPage::showLags() {
       const double sigma = output.covariance.rows() > at ? std::sqrt(output.covariance(at, at)) : std::nan("");
       QString name = fromCore(input.name);
       if (input.power != 1.0) name += QStringLiteral(" ^ %1").arg(input.power);
+      // The gain is what the input does at its scale.
+      const bool per_unit = input.scale == 1.0 && input.power == 1.0;
+      if (!per_unit) name = tr("%1 at %2").arg(name, decimalText(input.scale, 'g', 4));
       add(name, term.tau_s, 0.0, quantityCell(term.gain, sigma),
-          input.scale == 1.0 ? tr("%1 per unit").arg(outputUnit()) : tr("%1 at %2").arg(outputUnit()).arg(input.scale));
+          per_unit ? gainUnitOf(outputUnit(), input.name) : outputUnit());
     }
   }
   lags_->setRows(std::move(rows));

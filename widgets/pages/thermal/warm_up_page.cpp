@@ -45,9 +45,8 @@ WarmUpPage::WarmUpPage(PageContext page_context, QWidget* parent)
   drift_->setEmptyText(
       tr("Drift curves will appear here"),
       tr("Measure one point every 5 minutes while the instrument warms up: its drift shows when it has settled."));
-  drift_->setMinimumHeight(165);  // the title of the axis is as long
-  verdicts_ =
-      new RowsModel({tr("Axis"), tr("Drift now"), tr("Time constant"), tr("Settles after"), tr("Verdict")}, this);
+  verdicts_ = new RowsModel(
+      {tr("Axis"), tr("Drift now / (µm/h)"), tr("Time constant"), tr("Settles after"), tr("Verdict")}, this);
   auto* table = makeTable(verdicts_, tr("Drift of each axis"), tr("Drift and time constant of each axis appear here."));
   drift->addWidget(makeSplitter(drift_, table, 11, 10), 1);
   tabs_->addTab(drift_tab, tr("Drift"));
@@ -70,7 +69,6 @@ WarmUpPage::WarmUpPage(PageContext page_context, QWidget* parent)
   temperature_ = new Plot;
   temperature_->setEmptyText(tr("Temperatures will appear here"),
                              tr("They come from log.csv of the campaign; this one has none."));
-  temperature_->setMinimumHeight(165);  // the drift above needs the room more
   temperature->body()->addWidget(temperature_, 1);
   content()->addWidget(new MachineStateLine(session()));
   content()->addWidget(makeSplitter(instrument, temperature, 3, 2, Qt::Vertical), 1);
@@ -244,14 +242,14 @@ void WarmUpPage::refresh() {
       row.id = name;
       Cell first{name};
       first.bold = true;
-      row.cells = {first,
-                   {shownNumbers(QString::fromStdString(
-                       withUncertainty(axis.drift_um_per_h, axis.drift_sigma_um_per_h, "um/h")))},
-                   {axis.tau_s ? tr("%1 min").arg(decimalText(*axis.tau_s / 60, 'f', 0)) : QStringLiteral("–")},
-                   {axis.settled_after_s ? tr("%1 min").arg(decimalText(*axis.settled_after_s / 60, 'f', 0))
-                                         : QStringLiteral("–")},
-                   {axis.settled ? tr("settled") : tr("not settled"), axis.settled ? Tone::Good : Tone::Attention,
-                    axis.settled ? "check-circle" : "alert"}};
+      row.cells = {
+          first,
+          {shownNumbers(QString::fromStdString(withUncertainty(axis.drift_um_per_h, axis.drift_sigma_um_per_h, "")))},
+          {axis.tau_s ? tr("%1 min").arg(decimalText(*axis.tau_s / 60, 'f', 0)) : QStringLiteral("–")},
+          {axis.settled_after_s ? tr("%1 min").arg(decimalText(*axis.settled_after_s / 60, 'f', 0))
+                                : QStringLiteral("–")},
+          {axis.settled ? tr("settled") : tr("not settled"), axis.settled ? Tone::Good : Tone::Attention,
+           axis.settled ? "check-circle" : "alert"}};
       rows.push_back(std::move(row));
     }
     drift_->setAxes(tr("Time / %1").arg(unit.name),

@@ -258,6 +258,7 @@ void VerifyPage::showResult() {
   std::vector<Row> rows;
   const QString chosen = component_->currentText();
   component_->clear();
+  component_->setVisible(result_ != nullptr);
   if (result_ == nullptr) {
     components_->setRows({});
     for (NumberTile* tile : {before_, left_, verdict_}) tile->set(QStringLiteral("–"));

@@ -29,6 +29,7 @@
 #include "widgets/common/parts.h"
 #include "widgets/common/words.h"
 #include "widgets/common/wrap_layout.h"
+#include "widgets/models/session_model.h"
 #include "widgets/panels/common/effect_titles.h"
 #include "widgets/panels/discrepancy/effect_editor.h"
 #include "widgets/panels/discrepancy/effect_picture.h"

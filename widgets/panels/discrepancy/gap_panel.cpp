@@ -4,7 +4,6 @@
 #include <QComboBox>
 #include <QGridLayout>
 #include <QHBoxLayout>
-#include <QScrollArea>
 #include <QSlider>
 #include <QVBoxLayout>
 #include <algorithm>
@@ -45,22 +44,12 @@ GapPanel::GapPanel(QWidget* parent) : QWidget(parent) {
   line->setContentsMargins(0, 8, 0, 0);
   line->setSpacing(4);
   auto* left = new SideCard(tr("How large the gap is"));
-  // In a low window the bars scroll rather than being squeezed.
-  auto* inside = new QWidget;
-  auto* column = new QVBoxLayout(inside);
-  column->setContentsMargins(0, 0, 0, 0);
-  column->setSpacing(left->body()->spacing());
-  auto* scroll = new QScrollArea;
-  scroll->setWidgetResizable(true);
-  scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-  scroll->setWidget(inside);
-  left->body()->addWidget(scroll, 1);
   bars_ = new GapBars;
-  column->addWidget(bars_);
+  left->body()->addWidget(bars_);
   model_ = makeLabel({}, "secondaryText");
   model_->setWordWrap(true);
-  column->addWidget(model_);
-  column->addStretch(1);
+  left->body()->addWidget(model_);
+  left->body()->addStretch(1);
   left->body()->addWidget(makeLine(Qt::Horizontal));
   auto* choice = new QHBoxLayout;
   component_ = new QComboBox;

@@ -14,6 +14,7 @@
 #include "widgets/panels/common/effect_titles.h"
 #include "widgets/plots/plot.h"
 #include "widgets/theme/numbers.h"
+#include "widgets/theme/shown_units.h"
 #include "widgets/view3d/view3d.h"
 
 namespace spindrift::gui {
@@ -40,9 +41,9 @@ void SimulationHistory::show(const std::vector<DiscrepancyReportRow>& rows) {
   gaps_ = seriesGaps(rows_);
   series_->clear();
   for (const SeriesGap& gap : gaps_)
-    series_->addItem(tr("%1 of %2: rms %3, then %4")
-                         .arg(componentName(gap.component), QString::fromStdString(gap.point), sizeText(gap.before, {}),
-                              sizeText(gap.after, componentUnit(gap.component))));
+    series_->addItem(onScreen(tr("%1 of %2: rms %3 → %4")
+                                  .arg(componentName(gap.component), QString::fromStdString(gap.point),
+                                       sizeText(gap.before, {}), sizeText(gap.after, componentUnit(gap.component)))));
   draw();
 }
 

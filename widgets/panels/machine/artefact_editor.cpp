@@ -68,14 +68,20 @@ ArtefactEditor::ArtefactEditor(PageContext page_context, QWidget* parent)
   head->addWidget(remove_);
   left->body()->addLayout(head);
   fields_ = new ArtefactFields;
-  left->body()->addWidget(makeScrolling(fields_), 1);
+  form_ = makeScrolling(fields_);
+  left->body()->addWidget(form_, 1);
+  none_ = makeLabel(tr("Add a hole bar or balls, and type their certificate."), "secondaryText");
+  none_->setWordWrap(true);
+  none_->setAlignment(Qt::AlignCenter);
+  left->body()->addWidget(none_, 1);
   auto* right = new Card(tr("How it looks"));
   view_ = new View3D;
   view_->setEmptyText(tr("The artefact will appear here"), tr("Add a hole bar or balls, and type their certificate."));
   view_->setMachineVisible(false);
   right->body()->addWidget(view_, 1);
   right->body()->addWidget(makeLabel(tr("Styli"), "sectionTitle"));
-  styli_ = makeEditor({tr("Stylus"), tr("Radius\n/ mm"), tr("x / mm"), tr("y / mm"), tr("z / mm")}, tr("Styli"));
+  styli_ = makeEditor({tr("Stylus"), tr("Radius\n/ mm"), tr("x / mm"), tr("y / mm"), tr("z / mm")}, tr("Styli"),
+                      tr("No stylus yet."));
   styli_->setToolTip(tr("Offset: tip minus spindle reference"));
   right->body()->addWidget(styli_, 1);
   auto* stylus_buttons = new WrapLayout;
@@ -169,7 +175,8 @@ void ArtefactEditor::showArtefact(int index) {
   for (const nlohmann::json& a : machine_["artefacts"]) choice_->addItem(fromCore(a.value("id", "")));
   choice_->setCurrentIndex(std::min(index, choice_->count() - 1));
   const bool any = choice_->currentIndex() >= 0;
-  fields_->setVisible(any);
+  form_->setVisible(any);
+  none_->setVisible(!any);
   remove_->setEnabled(any);
   if (any) fields_->show(current());
   filling_ = false;

@@ -11,6 +11,7 @@
 #include "widgets/panels/page_context.h"
 
 class QComboBox;
+class QLabel;
 class QPushButton;
 class QTableWidget;
 
@@ -60,6 +61,8 @@ class ArtefactEditor : public QWidget {
   QPushButton* discard_;
   Callout* verdict_;
   ArtefactFields* fields_;
+  QWidget* form_;  ///< the fields, which scroll
+  QLabel* none_;   ///< in their place where there is no artefact
   QTableWidget* styli_;
   View3D* view_;
 };

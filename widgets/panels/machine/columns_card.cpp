@@ -44,7 +44,7 @@ ColumnsCard::ColumnsCard(Edited edited, QWidget* parent)
   addToTitle(remove_);
   // What changes stands first: the rest may be scrolled out of sight.
   table_ = makeEditor({tr("Column"), tr("Now"), tr("Age"), tr("Quality"), tr("From"), tr("Unit there"), tr("Role")},
-                      tr("Columns of the log"));
+                      tr("Columns of the log"), tr("Data items that are ticked become columns."));
   table_->verticalHeader()->setDefaultSectionSize(44);  // boxes stand in the rows
   table_->setSelectionBehavior(QAbstractItemView::SelectRows);
   body()->addWidget(table_, 1);

@@ -2,7 +2,6 @@
 #include "widgets/panels/scanning/artefact_designer.h"
 
 #include <QComboBox>
-#include <QDoubleSpinBox>
 #include <QFileDialog>
 #include <QFormLayout>
 #include <QHBoxLayout>
@@ -16,6 +15,7 @@
 #include "core/machine/component.h"
 #include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
+#include "widgets/common/quantity_box.h"
 #include "widgets/common/words.h"
 #include "widgets/models/cells.h"
 #include "widgets/models/rows_model.h"
@@ -60,18 +60,18 @@ ArtefactDesigner::ArtefactDesigner(WindowDraft draft, QWidget* parent) : QDialog
   kind_->setAccessibleName(tr("Surface to start from"));
   left->body()->addWidget(kind_);
   auto* form = new QFormLayout;
-  addNumber(form, "size x", tr("Size X"), tr(" mm"), 2, 200, 1, 11, 1);
-  addNumber(form, "size y", tr("Size Y, along the scan"), tr(" mm"), 2, 500, 1, 41, 1);
-  addNumber(form, "amplitude x", tr("Wave along X, amplitude"), tr(" mm"), 0, 20, 0.1, 1, 2);
-  addNumber(form, "wave x", tr("Wave along X"), tr(" rad/mm"), 0.01, 5, 0.05, 0.6, 3);
-  addNumber(form, "amplitude y", tr("Wave along Y, amplitude"), tr(" mm"), 0, 20, 0.1, 2.5, 2);
-  addNumber(form, "wave y", tr("Wave along Y"), tr(" rad/mm"), 0.01, 5, 0.05, 1.0 / 6.0, 3);
-  addNumber(form, "amplitude xy", tr("Oblique wave, amplitude"), tr(" mm"), 0, 10, 0.1, 0, 2);
-  addNumber(form, "noise", tr("Noise of a point"), tr(" µm"), 0.01, 100, 0.1, 0.5, 2);
-  addNumber(form, "points", tr("Points of a scan"), tr(" thousand"), 1, 20000, 10, 640, 0);
-  addNumber(form, "steepest slope", tr("Steepest slope seen"), tr(" mm/mm"), 0.05, 10, 0.1, 1.2, 2);
-  addNumber(form, "base", tr("Base under the lowest point"), tr(" mm"), 0.5, 100, 1, 10, 1);
-  addNumber(form, "step", tr("Facets of the STL"), tr(" mm"), 0.02, 5, 0.05, 0.1, 2);
+  addNumber(form, "size x", tr("Size X"), QStringLiteral("mm"), 2, 200, 1, 11, 1);
+  addNumber(form, "size y", tr("Size Y, along the scan"), QStringLiteral("mm"), 2, 500, 1, 41, 1);
+  addNumber(form, "amplitude x", tr("Wave along X, amplitude"), QStringLiteral("mm"), 0, 20, 0.1, 1, 2);
+  addNumber(form, "wave x", tr("Wave along X"), QStringLiteral("rad/mm"), 0.01, 5, 0.05, 0.6, 3);
+  addNumber(form, "amplitude y", tr("Wave along Y, amplitude"), QStringLiteral("mm"), 0, 20, 0.1, 2.5, 2);
+  addNumber(form, "wave y", tr("Wave along Y"), QStringLiteral("rad/mm"), 0.01, 5, 0.05, 1.0 / 6.0, 3);
+  addNumber(form, "amplitude xy", tr("Oblique wave, amplitude"), QStringLiteral("mm"), 0, 10, 0.1, 0, 2);
+  addNumber(form, "noise", tr("Noise of a point"), QStringLiteral("µm"), 0.01, 100, 0.1, 0.5, 2);
+  addNumber(form, "points", tr("Points of a scan"), tr("thousand"), 1, 20000, 10, 640, 0);
+  addNumber(form, "steepest slope", tr("Steepest slope seen"), QStringLiteral("mm/mm"), 0.05, 10, 0.1, 1.2, 2);
+  addNumber(form, "base", tr("Base under the lowest point"), QStringLiteral("mm"), 0.5, 100, 1, 10, 1);
+  addNumber(form, "step", tr("Facets of the STL"), QStringLiteral("mm"), 0.02, 5, 0.05, 0.1, 2);
   left->body()->addLayout(form);
   left->body()->addStretch();
   auto* stl = makeButton(tr("Save as STL …"), "export", "primary");
@@ -114,12 +114,10 @@ void ArtefactDesigner::showEvent(QShowEvent* event) {
 
 void ArtefactDesigner::addNumber(QFormLayout* form, const std::string& name, const QString& label, const QString& unit,
                                  double low, double high, double step, double value, int decimals) {
-  auto* box = new QDoubleSpinBox;
-  box->setDecimals(decimals);
+  auto* box = new QuantityBox(unit, decimals);
   box->setRange(low, high);
   box->setSingleStep(step);
   box->setValue(value);
-  box->setSuffix(unit);
   box->setAccessibleName(label);
   auto* name_of = new QLabel(label);
   name_of->setMinimumHeight(sizes::control_height);  // beside the middle of the box
@@ -208,11 +206,14 @@ void ArtefactDesigner::showDesigns(const ArtefactDesign& rigid, const ArtefactDe
     const auto i = static_cast<std::size_t>(k);
     Row row;
     row.id = fromCore(std::string(toString(k)));
-    row.cells.push_back(nameCell(QStringLiteral("%1 / %2").arg(row.id, unitText(unitOf(k)))));
+    const QString unit = unitText(unitOf(k));
+    row.cells.push_back(nameCell(QStringLiteral("%1 / %2").arg(row.id, unit)));
+    row.cells.back().unit = unit;
     for (const ArtefactDesign* d : {&rigid, &push_broom}) {
       Cell cell = std::isfinite(d->sigma[i]) ? Cell{decimalText(d->sigma[i], 'g', 3)}
                                              : toneCell(tr("not determined"), Tone::Attention);
       cell.right = true;
+      cell.unit = unit;
       row.cells.push_back(cell);
     }
     rows.push_back(std::move(row));

@@ -21,6 +21,23 @@
 #include "widgets/theme/numbers.h"
 
 namespace spindrift::gui {
+namespace {
+
+constexpr std::size_t most_curves = 8;
+
+/// The unit of a displacement or a rotation in its plot, and what a value of the log is multiplied by.
+struct PlottedUnit {
+  bool rotation = false;
+  double factor = 1.0;
+};
+
+PlottedUnit plottedUnit(const std::string& column) {
+  if (column.ends_with("_urad")) return {true, 1.0};
+  if (column.ends_with("_mrad")) return {true, 1000.0};
+  return {false, column.ends_with("_nm") ? 0.001 : 1.0};
+}
+
+}  // namespace
 
 IsoPanel::IsoPanel(QWidget* parent) : QWidget(parent) {
   auto* column = new QVBoxLayout(this);
@@ -40,13 +57,22 @@ IsoPanel::IsoPanel(QWidget* parent) : QWidget(parent) {
   column->addLayout(line);
   note_ = new Callout;
   column->addWidget(note_);
-  rows_ = new RowsModel({tr("Component"), tr("Over the test"), tr("Per K, or first hour"), tr("Slope, or time")}, this);
-  plot_ = new Plot;
-  plot_->setAxes(tr("Time / h"), tr("Change / µm or µrad"));
-  plot_->setEmptyText(tr("The test will appear here"), tr("It needs displacements over time."));
+  rows_ = new RowsModel({tr("Component"), tr("Over the test"), tr("Per degree, or first hour"), tr("Slope, or time")},
+                        this);
+  auto* plots = new QWidget;
+  auto* stack = new QVBoxLayout(plots);
+  stack->setContentsMargins(0, 0, 0, 0);
+  for (Plot*& plot : plots_) {
+    plot = new Plot;
+    plot->setEmptyText(tr("The test will appear here"), tr("It needs displacements over time."));
+    stack->addWidget(plot);
+  }
+  plot(false)->setAxes(tr("Time / h"), tr("Displacement / µm"));
+  plot(true)->setAxes(tr("Time / h"), tr("Rotation / µrad"));
+  plot(true)->hide();
   column->addWidget(makeSplitter(makeTable(rows_, tr("Parameters of ISO 230-3"),
                                            tr("Range, change and time of each component appear here.")),
-                                 plot_, 5, 6, Qt::Vertical),
+                                 plots, 5, 6, Qt::Vertical),
                     1);
   connect(test_, &Segments::chosen, this, [this](int) { evaluate(); });
   connect(ambient_, &QComboBox::activated, this, [this](int) { evaluate(); });
@@ -71,7 +97,7 @@ void IsoPanel::set(std::shared_ptr<const TimeSeries> series) {
 void IsoPanel::evaluate() {
   note_->set(Tone::Neutral, {});
   rows_->setRows({});
-  plot_->setContent({});
+  showCurves(false);
   ambient_->setEnabled(test_->current() == 0);
   if (series_ == nullptr) return;
   Iso230Request request;
@@ -87,23 +113,31 @@ void IsoPanel::evaluate() {
     note_->show(Tone::Attention, coreSentence(e.what()));
     return;
   }
-  std::vector<Series> all;
-  for (const Signal& s : series_->signals) {
-    if (s.kind != SignalKind::Displacement || all.size() >= 8) continue;
+  showCurves(true);
+}
+
+void IsoPanel::showCurves(bool any) {
+  std::array<std::vector<Series>, 2> all;
+  for (const Signal& s : any ? series_->signals : std::vector<Signal>{}) {
+    const PlottedUnit unit = plottedUnit(s.name);
+    std::vector<Series>& curves = all[unit.rotation ? 1 : 0];
+    if (s.kind != SignalKind::Displacement || curves.size() >= most_curves) continue;
     Series curve;
     curve.name = fromCore(s.name);
-    curve.colour = static_cast<int>(all.size());
+    curve.colour = static_cast<int>(curves.size());
     curve.style = SeriesStyle::Line;
     double zero = std::nan("");
     for (std::size_t i = 0; i < s.values.size(); ++i) {
       if (!std::isfinite(s.values[i])) continue;
       if (std::isnan(zero)) zero = s.values[i];
       curve.x.push_back(series_->time_s[i] / 3600);
-      curve.y.push_back(s.values[i] - zero);
+      curve.y.push_back(unit.factor * (s.values[i] - zero));
     }
-    all.push_back(std::move(curve));
+    curves.push_back(std::move(curve));
   }
-  plot_->setContent(std::move(all));
+  plot(true)->setVisible(!all[1].empty());
+  plot(false)->setVisible(!all[0].empty() || all[1].empty());
+  for (std::size_t i = 0; i < 2; ++i) plots_[i]->setContent(std::move(all[i]));
 }
 
 void IsoPanel::showEtve(const EtveResult& result) {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <QWidget>
+#include <array>
 #include <memory>
 
 #include "core/workflows/thermal_tests.h"
@@ -26,11 +27,14 @@ class IsoPanel : public QWidget {
   [[nodiscard]] Segments* test() const { return test_; }
   [[nodiscard]] QLineEdit* range() const { return range_; }
   [[nodiscard]] RowsModel* rows() const { return rows_; }
-  [[nodiscard]] Plot* plot() const { return plot_; }
+  /// Displacements and rotations stand in plots of their own; one that has nothing to show is hidden.
+  [[nodiscard]] Plot* plot(bool rotations = false) const { return plots_[rotations ? 1 : 0]; }
   [[nodiscard]] Callout* note() const { return note_; }
 
  private:
   void evaluate();
+  /// Draws what the log holds, or nothing.
+  void showCurves(bool any);
   void showEtve(const EtveResult& result);
   void showSpindle(const SpindleResult& result);
 
@@ -40,7 +44,7 @@ class IsoPanel : public QWidget {
   QLineEdit* range_;  ///< "FROM:TO" in s; empty: the whole record
   Callout* note_;
   RowsModel* rows_;
-  Plot* plot_;
+  std::array<Plot*, 2> plots_{};
 };
 
 }  // namespace spindrift::gui

@@ -15,7 +15,9 @@
 #include "widgets/pages/common/message_page.h"
 #include "widgets/pages/compensate/log_compensate_page.h"
 #include "widgets/pages/report/report_page.h"
+#include "widgets/panels/thermal/iso_panel.h"
 #include "widgets/plots/plot.h"
+#include "widgets/theme/shown_units.h"
 
 namespace spindrift::gui {
 namespace {
@@ -130,6 +132,57 @@ TEST_F(ThermalPages, InputsAndMethodAreChosen) {
     slowest = std::max(slowest, t["value_s"].get<double>());
   EXPECT_NEAR(slowest, tau_s, 0.25 * tau_s);
   EXPECT_GT(page->lags()->rowCount(), 0);
+}
+
+TEST(IsoPanelTest, DisplacementsAndRotationsHaveAnAxisEach) {
+  std::string text = "time_s,T_room_degC,ez_um,ex_nm,eb_urad\n";
+  for (int i = 0; i <= 240; ++i) {
+    const double t = 60.0 * i;
+    const double room = 20.0 + 2.0 * std::sin(t / 4000.0);
+    text += exactNumber(t) + "," + exactNumber(room) + "," + exactNumber(3.0 * room) + "," + exactNumber(500.0 * room) +
+            "," + exactNumber(-4.0 * room) + "\n";
+  }
+  IsoPanel panel;
+  panel.set(std::make_shared<TimeSeries>(parseTimeSeries(text, "log.csv")));
+  setShownUnits({true, true, true});
+  ASSERT_EQ(panel.plot()->series().size(), 2U);
+  ASSERT_EQ(panel.plot(true)->series().size(), 1U);
+  EXPECT_EQ(panel.plot()->axisTitles().at(1), QStringLiteral("Displacement / µin"));
+  EXPECT_EQ(panel.plot(true)->axisTitles().at(1), QStringLiteral("Rotation / arcsec"));
+  const double last = 2.0 * std::sin(14'400.0 / 4000.0);
+  EXPECT_NEAR(panel.plot()->series()[0].y.back(), 3.0 * last, 1e-6);
+  EXPECT_NEAR(panel.plot()->series()[1].y.back(), 0.5 * last, 1e-6);
+  EXPECT_NEAR(panel.plot(true)->series()[0].y.back(), -4.0 * last, 1e-6);
+  setShownUnits({});
+  // Where nothing turns there is one picture.
+  panel.set(std::make_shared<TimeSeries>(parseTimeSeries("time_s,ez_um\n0,1\n60,2\n", "log.csv")));
+  EXPECT_TRUE(panel.plot(true)->isHidden());
+  EXPECT_FALSE(panel.plot()->isHidden());
+}
+
+TEST_F(ThermalPages, GainsAreWrittenPerUnitOfTheInput) {
+  open(writeLog());
+  auto* page = go<ThermalModelPage>(StepId::Model);
+  press();
+  ASSERT_NE(page->result(), nullptr);
+  int gains = 0;
+  const auto look = [&](const char* per_kelvin, const char* per_rpm) {
+    for (int r = 0; r < page->lags()->rowCount(); ++r) {
+      const QString input = page->lags()->index(r, 0).data().toString();
+      if (page->lags()->index(r, 3).data().toString() == QStringLiteral("–")) continue;
+      const bool at_scale = input.contains(QStringLiteral(" at "));
+      const char* unit = input.startsWith(QStringLiteral("T_")) ? per_kelvin : per_rpm;
+      const QString alone = QString::fromUtf8(per_rpm).section(QLatin1Char('/'), 0, 0);
+      EXPECT_EQ(page->lags()->index(r, 4).data().toString(), at_scale ? alone : QString::fromUtf8(unit))
+          << input.toStdString();
+      ++gains;
+    }
+  };
+  look("µm/K", "µm/rpm");
+  setShownUnits({true, true, true});
+  look("µin/°F", "µin/rpm");
+  setShownUnits({});
+  EXPECT_GT(gains, 0);
 }
 
 TEST_F(ThermalPages, AFileThatIsNoLogGivesOneSentence) {
