@@ -158,12 +158,14 @@ CommandResult designCommand(DesignArguments arguments) {
   for (const Component k : all_components) {
     const double sigma = d.sigma[static_cast<std::size_t>(k)];
     out.json["sigma"][std::string(toString(k))] = numberOrNull(sigma);
-    out.summary += fmt::format("  {}  {:10.4g} {}\n", toString(k), sigma, printedUnit(unitOf(k)));
+    out.summary += std::isfinite(sigma) ? fmt::format("  {}  {:10.4g} {}\n", toString(k), sigma, printedUnit(unitOf(k)))
+                                        : fmt::format("  {}  not determined\n", toString(k));
   }
   out.json["weak_directions"] = nlohmann::json::array();
   for (const WeakDirection& w : d.weak) {
     out.json["weak_directions"].push_back({{"direction", w.name}, {"sigma_um", numberOrNull(w.sigma_um)}});
-    out.summary += fmt::format("  weak: {} (rotations times {:.3g} mm): {:.4g} µm\n", w.name, d.length_mm, w.sigma_um);
+    out.summary += fmt::format("  weak: {} (rotations times {:.3g} mm): {}\n", w.name, d.length_mm,
+                               std::isfinite(w.sigma_um) ? fmt::format("{:.4g} µm", w.sigma_um) : "not determined");
   }
   out.summary += fmt::format("  slope up to {:.2f} (x), {:.2f} (y); the profiler sees {:.1f} % of the surface\n",
                              d.largest_slope_x, d.largest_slope_y, 100.0 * d.visible_part);

@@ -156,6 +156,27 @@ PredictedComponent EffectModel::predict(const DeviationQuery& query, Component c
   return out;
 }
 
+PredictedComponent EffectModel::predictChange(const DeviationQuery& query, const DeviationQuery& reference,
+                                              Component component) const {
+  PredictedComponent out;
+  if (base_) out = base_->predictChange(query, reference, component);
+  double variance = out.sigma * out.sigma;
+  const auto at_query = responsesAt(query.time_s);
+  const auto at_reference = responsesAt(reference.time_s);
+  for (std::size_t n = 0; n < effects_.size(); ++n) {
+    const ModelEffect& e = effects_[n];
+    const auto gradient = [&](const DeviationQuery& where, const Responses& r) {
+      return gradientAt(e, shapeAt(e, where, component), r.inputs,
+                        [&](std::size_t p, Eigen::Index i) { return r.moved[p][i]; });
+    };
+    const Eigen::VectorXd change = gradient(query, (*at_query)[n]) - gradient(reference, (*at_reference)[n]);
+    out.value += change.head(e.gains.size()).dot(e.gains);
+    variance += varianceOf(e, change);
+  }
+  out.sigma = std::sqrt(variance);
+  return out;
+}
+
 std::vector<double> EffectModel::effectSigma(std::span<const Observation> rows) const {
   const std::vector<double> times = distinctTimes(rows);
   std::vector<double> variance(rows.size(), 0.0);

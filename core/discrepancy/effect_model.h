@@ -41,6 +41,8 @@ class EffectModel : public ErrorModel {
 
   [[nodiscard]] std::string description() const override;
   [[nodiscard]] PredictedComponent predict(const DeviationQuery& query, Component component) const override;
+  [[nodiscard]] PredictedComponent predictChange(const DeviationQuery& query, const DeviationQuery& reference,
+                                                 Component component) const override;
   [[nodiscard]] const std::vector<ModelEffect>& effects() const noexcept { return effects_; }
   [[nodiscard]] const DriverTable& drivers() const noexcept { return *drivers_; }
   /// Sum of the effects (without the base) for many rows at once, um or urad.

@@ -48,12 +48,19 @@ class SimulationOfOtherClock final : public ErrorModel {
       : simulation_(std::move(simulation)), offset_s_(offset_s) {}
   [[nodiscard]] std::string description() const override { return simulation_->description(); }
   [[nodiscard]] PredictedComponent predict(const DeviationQuery& query, Component component) const override {
-    DeviationQuery there = query;
-    there.time_s += offset_s_;
-    return simulation_->predict(there, component);
+    return simulation_->predict(byItsClock(query), component);
+  }
+  [[nodiscard]] PredictedComponent predictChange(const DeviationQuery& query, const DeviationQuery& reference,
+                                                 Component component) const override {
+    return simulation_->predictChange(byItsClock(query), byItsClock(reference), component);
   }
 
  private:
+  [[nodiscard]] DeviationQuery byItsClock(DeviationQuery query) const {
+    query.time_s += offset_s_;
+    return query;
+  }
+
   std::shared_ptr<const ErrorModel> simulation_;
   double offset_s_;
 };

@@ -123,16 +123,15 @@ AxisComponentTable axisComponents(const ErrorModel& model, const MachineDescript
   DeviationQuery query = conditions;
   query.point.clear();
   query.position_mm = reference_mm;
-  std::array<double, 6> reference{};
-  for (const Component c : all_components) reference[static_cast<std::size_t>(c)] = model.predict(query, c).value;
+  const DeviationQuery reference = query;
   for (int i = 0; i < count; ++i) {
     query.position_mm[number] = positionAt(description, i, count);
     std::array<double, 6> deviation{};
     std::array<double, 6> sigma{};
     for (const Component c : all_components) {
-      const PredictedComponent predicted = model.predict(query, c);
-      deviation[static_cast<std::size_t>(c)] = predicted.value - reference[static_cast<std::size_t>(c)];
-      sigma[static_cast<std::size_t>(c)] = predicted.sigma;
+      const PredictedComponent change = model.predictChange(query, reference, c);
+      deviation[static_cast<std::size_t>(c)] = change.value;
+      sigma[static_cast<std::size_t>(c)] = change.sigma;
     }
     table.position_mm.push_back(query.position_mm[number]);
     table.deviation.push_back(deviation);
@@ -145,26 +144,35 @@ std::string axisComponentsCsv(const AxisComponentTable& table, const std::option
   const auto axis = static_cast<Eigen::Index>(std::string_view("XYZ").find(table.axis));
   SPINDRIFT_ASSERT(axis >= 0 && axis < 3, "a table of X, Y or Z");
   const bool along = !measured || measured->extendsAlong(static_cast<int>(axis));
+  const auto somewhere = [](const std::vector<std::array<double, 6>>& rows, std::size_t i) {
+    return std::any_of(rows.begin(), rows.end(), [&](const auto& row) { return row[i] != 0.0; });
+  };
   std::array<bool, 6> known{};
   for (std::size_t i = 0; i < 6; ++i) {
-    known[i] = along && (!measured || (i < 3 ? measured->displacement[i]
-                                             : std::any_of(table.sigma.begin(), table.sigma.end(),
-                                                           [&](const auto& sigma) { return sigma[i] > 0.0; })));
+    known[i] = !measured || (along && (i >= 3 || measured->displacement[i]) &&
+                             (somewhere(table.deviation, i) || somewhere(table.sigma, i)));
   }
   std::string header = "position_mm";
   std::string sigma_header;
-  for (int i = 0; i < 6; ++i) {
-    const std::string name = fmt::format("E{}{}_{}", axis_names[i], table.axis, i < 3 ? "um" : "urad");
+  std::string unknown;
+  for (std::size_t i = 0; i < 6; ++i) {
+    const std::string error = fmt::format("E{}{}", axis_names[i], table.axis);
+    const std::string name = fmt::format("{}_{}", error, i < 3 ? "um" : "urad");
     header += "," + name;
     sigma_header += ",sigma_" + name;
+    if (along && !known[i] && (i >= 3 || measured->displacement[i]))
+      unknown += fmt::format("{}{}", unknown.empty() ? "" : ", ", error);
   }
-  std::string text =
-      fmt::format("# ISO 230-1 component errors of {}: deviation = actual minus commanded\n", table.axis);
+  std::string text = fmt::format(
+      "# ISO 230-1 component errors of {}: deviation = actual minus commanded, relative to that at "
+      "the reference position; sigma is the standard uncertainty of this difference\n",
+      table.axis);
   if (!along) {
     text += fmt::format("# nothing was measured along {} (all points lie at {:.4g} mm): no error of it is stated\n",
                         table.axis, measured->low_mm[axis]);
   } else {
     text += unmeasuredComment(measured);
+    if (!unknown.empty()) text += fmt::format("# not in the model, so that nothing is stated of it: {}\n", unknown);
   }
   text += header + sigma_header + (measured ? ",extrapolated\n" : "\n");
   for (std::size_t row = 0; row < table.position_mm.size(); ++row) {

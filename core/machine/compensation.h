@@ -72,7 +72,7 @@ struct CompensationNode {
                                               const std::optional<MeasuredBox>& measured = {});
 
 /// Component errors of one linear axis along its travel, the others at `reference_mm`, relative to the reference
-/// position.
+/// position: the uncertainty is that of this difference, zero at the reference itself.
 struct AxisComponentTable {
   std::string axis;
   std::vector<double> position_mm;
@@ -87,7 +87,7 @@ struct AxisComponentTable {
                                                 const DeviationQuery& conditions);
 /// position_mm,EXX_um,EYX_um,EZX_um,EAX_urad,EBX_urad,ECX_urad and sigma_ of each; with `measured` also extrapolated,
 /// and empty fields (said in a comment) where nothing was measured along the axis, for a displacement that was not
-/// measured, and for a rotation that the model knows nothing of (its uncertainty is zero everywhere).
+/// measured, and for an error that the model knows nothing of (it and its uncertainty are zero all along the axis).
 [[nodiscard]] std::string axisComponentsCsv(const AxisComponentTable& table,
                                             const std::optional<MeasuredBox>& measured = {});
 

@@ -23,6 +23,7 @@ struct DeviationQuery {
   [[nodiscard]] static DeviationQuery of(const Observation& o) {
     return {o.time_s, o.state, o.point, o.position_mm, o.c_deg, o.approach, o.tool_offset_mm};
   }
+  [[nodiscard]] bool operator==(const DeviationQuery&) const = default;
 };
 
 /// A predicted component: um or urad; `sigma` is one standard uncertainty of the prediction (0 if it is taken as
@@ -39,6 +40,11 @@ class ErrorModel {
   /// One sentence: what the model is and from what it was made.
   [[nodiscard]] virtual std::string description() const = 0;
   [[nodiscard]] virtual PredictedComponent predict(const DeviationQuery& query, Component component) const = 0;
+  /// The deviation at `query` relative to that at `reference`, and the standard uncertainty of this change: what both
+  /// share cancels (GUM 5.2.2, u^2(a - b) = u^2(a) + u^2(b) - 2 u(a, b)), so that it is zero where both are the same.
+  /// A model that does not know the covariance of two predictions takes them as independent.
+  [[nodiscard]] virtual PredictedComponent predictChange(const DeviationQuery& query, const DeviationQuery& reference,
+                                                         Component component) const;
 };
 
 }  // namespace spindrift

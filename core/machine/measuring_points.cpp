@@ -4,10 +4,11 @@
 #include <fmt/format.h>
 
 #include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <optional>
 
 #include "core/base/random.h"
@@ -21,17 +22,17 @@ constexpr std::array<Component, 3> translations{Component::EX, Component::EY, Co
 /// Information of each candidate and moment matrix of the region, both in scaled parameters of similar size.
 class Design {
  public:
-  Design(const std::vector<Eigen::Vector3d>& candidates, const PlacementOptions& options) : options_(options) {
+  Design(const std::vector<Eigen::Vector3d>& candidates, const PlacementOptions& options)
+      : options_(options), places_mm_(candidates) {
     const double x = std::max({1.0, std::abs(options.region_from_mm.x()), std::abs(options.region_to_mm.x())}) * 1e-3;
     const double y = std::max({1.0, std::abs(options.region_from_mm.y()), std::abs(options.region_to_mm.y())}) * 1e-3;
     scale_ << 1, 1, 1, 1 / y, 1 / x, 1 / x, 1 / y, 1 / x, 1 / y;
     for (const Eigen::Vector3d& p : candidates) {
-      NineMatrix information = NineMatrix::Zero();
-      for (const Component c : translations) {
-        const NineVector row = scale_.cwiseProduct(nineParameterRow(p, c)) / sigma(c);
-        information += row * row.transpose();
-      }
-      information_.push_back(information);
+      Rows rows;
+      for (const Component c : translations)
+        rows.row(static_cast<int>(c)) = (scale_.cwiseProduct(nineParameterRow(p, c)) / sigma(c)).transpose();
+      rows_.push_back(rows);
+      information_.emplace_back(rows.transpose() * rows);
       z_mm_ += p.z() / static_cast<double>(candidates.size());
     }
     moment_.setZero();
@@ -62,12 +63,43 @@ class Design {
     return std::sqrt(cholesky.solve(moment_).trace());
   }
 
+  /// The cost with one more candidate, for many candidates: three more rows, not a matrix anew (matrix determinant
+  /// lemma, Woodbury identity).
+  [[nodiscard]] auto costsWith(const NineMatrix& information) const {
+    const bool usable = std::isfinite(cost(information));
+    NineMatrix covariance = NineMatrix::Zero();
+    NineMatrix spread = NineMatrix::Zero();
+    double alone = 0.0;
+    if (usable) {
+      const Eigen::LLT<NineMatrix> cholesky(information);
+      covariance = cholesky.solve(NineMatrix::Identity());
+      spread = covariance * moment_ * covariance;
+      alone = options_.criterion == PlacementCriterion::D
+                  ? -2.0 * NineMatrix(cholesky.matrixL()).diagonal().array().log().sum()
+                  : (covariance * moment_).trace();
+    }
+    return [this, information, usable, covariance, spread, alone](std::size_t candidate) {
+      if (!usable) return cost(information + information_[candidate]);
+      const Rows& rows = rows_[candidate];
+      const Eigen::Matrix3d capacity = Eigen::Matrix3d::Identity() + rows * covariance * rows.transpose();
+      const double determinant = capacity.determinant();
+      if (options_.criterion == PlacementCriterion::D) return alone - std::log(determinant);
+      const Eigen::Matrix3d gain = rows * spread * rows.transpose();
+      return std::sqrt(std::max(0.0, alone - capacity.inverse().cwiseProduct(gain).sum()));
+    };
+  }
+
   [[nodiscard]] PlacementResult judge(std::vector<std::size_t> chosen) const {
     std::sort(chosen.begin(), chosen.end());
+    double closest_mm = std::numeric_limits<double>::infinity();
+    for (std::size_t a = 0; a < chosen.size(); ++a)
+      for (std::size_t b = a + 1; b < chosen.size(); ++b)
+        closest_mm = std::min(closest_mm, (places_mm_[chosen[a]] - places_mm_[chosen[b]]).norm());
     NineMatrix information = NineMatrix::Zero();
     for (const std::size_t i : chosen) information += information_[i];
     PlacementResult result;
     result.chosen = std::move(chosen);
+    result.least_distance_mm = closest_mm;
     if (!std::isfinite(cost(information))) {
       result.status = FitStatus::Degenerate;
       result.message =
@@ -96,6 +128,8 @@ class Design {
   }
 
  private:
+  using Rows = Eigen::Matrix<double, 3, nine_parameter_count>;
+
   [[nodiscard]] double sigma(Component c) const {
     return c == Component::EZ ? options_.sigma_z_um : options_.sigma_xy_um;
   }
@@ -107,8 +141,10 @@ class Design {
   }
 
   const PlacementOptions& options_;
+  const std::vector<Eigen::Vector3d>& places_mm_;
   NineVector scale_;
   double z_mm_ = 0.0;
+  std::vector<Rows> rows_;
   std::vector<NineMatrix> information_;
   NineMatrix moment_;
 };
@@ -156,23 +192,41 @@ PlacementResult judgeMeasuringPoints(const std::vector<Eigen::Vector3d>& candida
 
 namespace {
 
+/// A choice that keeps a distance: how many of the chosen stand too close to each candidate is counted.
+class Choice {
+ public:
+  Choice(const std::vector<Eigen::Vector3d>& places_mm, double distance_mm)
+      : places_mm_(places_mm), least_mm_(distance_mm - 1e-9), close_(places_mm.size(), 0) {}
+
+  void take(std::size_t place) { change(place, 1); }
+  void leave(std::size_t place) { change(place, -1); }
+  [[nodiscard]] bool mayTake(std::size_t place) const { return close_[place] == 0; }
+
+ private:
+  void change(std::size_t place, int by) {
+    for (std::size_t i = 0; i < close_.size(); ++i)  // itself too: nobody stands twice in one place
+      if (i == place || (places_mm_[i] - places_mm_[place]).norm() < least_mm_) close_[i] += by;
+  }
+
+  const std::vector<Eigen::Vector3d>& places_mm_;
+  double least_mm_;
+  std::vector<int> close_;
+};
+
 /// The best choice in which free positions keep a distance from each other and from the fixed ones; nothing if there is
 /// none that determines all parameters.
 std::optional<PlacementResult> bestApart(const std::vector<Eigen::Vector3d>& candidates_mm,
                                          const PlacementOptions& options, const Design& design, double distance_mm,
                                          const JobContext& job) {
+  Choice choice(candidates_mm, distance_mm);
   NineMatrix base = NineMatrix::Zero();
-  for (const std::size_t i : options.fixed) base += design.information(i);
-  const auto apart = [&](std::size_t a, std::size_t b) {
-    return (candidates_mm[a] - candidates_mm[b]).norm() >= distance_mm - 1e-9;
-  };
-  std::vector<std::size_t> free;
-  for (std::size_t i = 0; i < candidates_mm.size(); ++i) {
-    if (std::find(options.fixed.begin(), options.fixed.end(), i) != options.fixed.end()) continue;
-    if (std::all_of(options.fixed.begin(), options.fixed.end(), [&](std::size_t f) { return apart(i, f); })) {
-      free.push_back(i);
-    }
+  for (const std::size_t i : options.fixed) {
+    base += design.information(i);
+    choice.take(i);
   }
+  std::vector<std::size_t> free;
+  for (std::size_t i = 0; i < candidates_mm.size(); ++i)
+    if (choice.mayTake(i)) free.push_back(i);
   const std::size_t wanted = static_cast<std::size_t>(options.count) - options.fixed.size();
   if (free.size() < wanted) return std::nullopt;
   double best_cost = std::numeric_limits<double>::infinity();
@@ -189,75 +243,75 @@ std::optional<PlacementResult> bestApart(const std::vector<Eigen::Vector3d>& can
         const double cost = design.cost(sum[depth]);
         if (cost < best_cost || !found) {
           best_cost = cost;
-          best.clear();
-          for (std::size_t k = 0; k < wanted; ++k) best.push_back(free[pick[k]]);
+          best = pick;
           found = true;
         }
         if (++tried % 4096 == 0) job.throwIfCancelled();
         return;
       }
       for (std::size_t i = from; i + (wanted - depth) <= free.size(); ++i) {
-        bool keeps = true;
-        for (std::size_t k = 0; k < depth && keeps; ++k) keeps = apart(free[i], free[pick[k]]);
-        if (!keeps) continue;
-        pick[depth] = i;
+        if (!choice.mayTake(free[i])) continue;
+        pick[depth] = free[i];
+        choice.take(free[i]);
         sum[depth + 1] = sum[depth] + design.information(free[i]);
         self(self, depth + 1, i + 1);
+        choice.leave(free[i]);
       }
     };
     descend(descend, 0, 0);
   } else {
+    // Many positions make one start as good as another, and a pass through all of them nearly as good as the next.
+    constexpr double most_exchanges = 8e6;
+    double looked_at = 0.0;
     Random random(options.seed);
-    for (int start = 0; start < options.starts; ++start) {
-      job.throwIfCancelled();
-      job.report(start / static_cast<double>(options.starts), "choosing positions");
-      std::vector<std::size_t> order(free.size());
-      std::iota(order.begin(), order.end(), std::size_t{0});
+    std::vector<std::size_t> order = free;
+    for (int start = 0; start < options.starts && (start == 0 || looked_at < most_exchanges); ++start) {
+      job.report(std::max(start / static_cast<double>(options.starts), std::min(1.0, looked_at / most_exchanges)),
+                 "choosing positions");
       for (std::size_t i = order.size(); i > 1; --i) std::swap(order[i - 1], order[random.index(i)]);
-      // The first ones of a random order that keep the distance go to its front.
-      std::size_t taken = 0;
-      for (std::size_t i = 0; i < order.size() && taken < wanted; ++i) {
-        bool keeps = true;
-        for (std::size_t k = 0; k < taken && keeps; ++k) keeps = apart(free[order[i]], free[order[k]]);
-        if (keeps) std::swap(order[taken++], order[i]);
-      }
-      if (taken < wanted) continue;
+      Choice current = choice;
       NineMatrix sum = base;
-      for (std::size_t k = 0; k < wanted; ++k) sum += design.information(free[order[k]]);
+      std::vector<std::size_t> chosen;
+      for (std::size_t i = 0; i < order.size() && chosen.size() < wanted; ++i) {
+        if (!current.mayTake(order[i])) continue;
+        current.take(order[i]);
+        sum += design.information(order[i]);
+        chosen.push_back(order[i]);
+      }
+      if (chosen.size() < wanted) continue;
       double cost = design.cost(sum);
       for (bool improved = true; improved;) {
         improved = false;
-        std::size_t out = 0;
-        std::size_t in = 0;
-        double lowest = cost;
-        for (std::size_t k = 0; k < wanted; ++k) {
-          const NineMatrix without = sum - design.information(free[order[k]]);
-          for (std::size_t i = wanted; i < order.size(); ++i) {
-            bool keeps = true;
-            for (std::size_t other = 0; other < wanted && keeps; ++other) {
-              keeps = other == k || apart(free[order[i]], free[order[other]]);
-            }
-            if (!keeps) continue;
-            const double cost_with = design.cost(without + design.information(free[order[i]]));
-            if (cost_with < lowest - 1e-12 * std::abs(lowest) || (std::isinf(lowest) && std::isfinite(cost_with))) {
-              lowest = cost_with;
-              out = k;
-              in = i;
-              improved = true;
+        for (std::size_t& place : chosen) {
+          job.throwIfCancelled();
+          current.leave(place);
+          const NineMatrix without = sum - design.information(place);
+          const auto costWith = design.costsWith(without);
+          std::size_t into = place;
+          double lowest = cost;
+          for (const std::size_t i : free) {
+            if (i == place || !current.mayTake(i)) continue;
+            looked_at += 1.0;
+            const double here = costWith(i);
+            if (here < lowest - 1e-12 * std::abs(lowest) || (std::isinf(lowest) && std::isfinite(here))) {
+              lowest = here;
+              into = i;
             }
           }
-        }
-        if (improved) {
-          std::swap(order[out], order[in]);
-          sum = base;
-          for (std::size_t k = 0; k < wanted; ++k) sum += design.information(free[order[k]]);
+          improved = improved || into != place;
+          place = into;
+          current.take(place);
+          sum = without + design.information(place);
           cost = lowest;
         }
+        sum = base;  // rounding does not gather
+        for (const std::size_t i : chosen) sum += design.information(i);
+        cost = design.cost(sum);
+        if (looked_at >= most_exchanges) break;
       }
       if (cost < best_cost || !found) {
         best_cost = cost;
-        best.clear();
-        for (std::size_t k = 0; k < wanted; ++k) best.push_back(free[order[k]]);
+        best = chosen;
         found = true;
       }
     }
@@ -266,7 +320,6 @@ std::optional<PlacementResult> bestApart(const std::vector<Eigen::Vector3d>& can
   best.insert(best.end(), options.fixed.begin(), options.fixed.end());
   PlacementResult result = design.judge(best);
   result.exhaustive = exhaustive;
-  result.least_distance_mm = distance_mm;
   return result;
 }
 

@@ -4,7 +4,8 @@
 // Each position gives EX, EY, EZ with the uncertainties sigma_xy and sigma_z. D-optimal: the largest determinant of the
 // information matrix M = sum S^T S / sigma^2 (smallest volume of the confidence region of the parameters). I-optimal:
 // the smallest mean variance of the prediction over the table. All choices are tried where that is feasible, else
-// Fedorov's exchange from several starts (Fedorov 1972; Atkinson, Donev, Tobias 2007, ch. 12). The criterion alone puts
+// one position after the other is exchanged for the best other one from several starts (Fedorov 1972; Cook and
+// Nachtsheim 1980; Atkinson, Donev, Tobias 2007, ch. 12). The criterion alone puts
 // positions side by side where one would do: they keep a distance, so that a disturbed place does not count twice.
 #pragma once
 
@@ -44,7 +45,7 @@ struct PlacementResult {
   std::string message;
   std::vector<std::size_t> chosen;  ///< indices of candidates, ascending
   bool exhaustive = false;          ///< all choices were tried: the optimum is certain
-  double least_distance_mm = 0.0;   ///< that was kept
+  double least_distance_mm = 0.0;   ///< of any two of the chosen, fixed ones too
   double log_det = 0.0;             ///< ln det of the information matrix (um, urad, um/m)
   double mean_sigma_um = 0.0;       ///< root of the mean variance of ex, ey, ez over the region
   double largest_sigma_um = 0.0;    ///< largest standard uncertainty of a component over the region

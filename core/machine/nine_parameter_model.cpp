@@ -216,7 +216,17 @@ NineParameterModel::NineParameterModel(const NineVector& parameters, const NineM
       lack_of_fit_um_(std::move(lack_of_fit_um)) {}
 
 PredictedComponent NineParameterModel::predict(const DeviationQuery& query, Component component) const {
-  const NineVector row = nineParameterRow(query.position_mm, component);
+  return combined(nineParameterRow(query.position_mm, component), component, 1.0);
+}
+
+PredictedComponent NineParameterModel::predictChange(const DeviationQuery& query, const DeviationQuery& reference,
+                                                     Component component) const {
+  // What the model does not describe is its own at every place.
+  return combined(nineParameterRow(query.position_mm, component) - nineParameterRow(reference.position_mm, component),
+                  component, query.position_mm == reference.position_mm ? 0.0 : 2.0);
+}
+
+PredictedComponent NineParameterModel::combined(const NineVector& row, Component component, double lacks) const {
   PredictedComponent predicted;
   predicted.value = row.dot(parameters_);
   for (Eigen::Index k = 0; k < null_space_.cols(); ++k) {
@@ -232,7 +242,7 @@ PredictedComponent NineParameterModel::predict(const DeviationQuery& query, Comp
       if (row(i) != 0.0 && row(j) != 0.0) variance += row(i) * covariance_(i, j) * row(j);
     }
   }
-  if (!isRotation(component)) variance += std::pow(lack_of_fit_um_[static_cast<int>(component)], 2);
+  if (!isRotation(component)) variance += lacks * std::pow(lack_of_fit_um_[static_cast<int>(component)], 2);
   predicted.sigma = std::sqrt(std::max(variance, 0.0));
   return predicted;
 }

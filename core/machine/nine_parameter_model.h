@@ -53,10 +53,15 @@ class NineParameterModel final : public ErrorModel {
 
   [[nodiscard]] std::string description() const override { return description_; }
   [[nodiscard]] PredictedComponent predict(const DeviationQuery& query, Component component) const override;
+  [[nodiscard]] PredictedComponent predictChange(const DeviationQuery& query, const DeviationQuery& reference,
+                                                 Component component) const override;
   [[nodiscard]] const NineVector& parameters() const noexcept { return parameters_; }
   [[nodiscard]] const NineMatrix& covariance() const noexcept { return covariance_; }
 
  private:
+  /// row * parameters with the uncertainty of the parameters, and `lacks` times the variance of the lack of fit.
+  [[nodiscard]] PredictedComponent combined(const NineVector& row, Component component, double lacks) const;
+
   NineVector parameters_;
   NineMatrix covariance_;
   std::string description_;

@@ -270,6 +270,15 @@ PredictedComponent TablePolynomialModel::predict(const DeviationQuery& query, Co
   return {row.dot(parameters_), std::sqrt(std::max(0.0, row.dot(covariance_ * row)) + lack * lack)};
 }
 
+PredictedComponent TablePolynomialModel::predictChange(const DeviationQuery& query, const DeviationQuery& reference,
+                                                       Component component) const {
+  const Eigen::VectorXd row = basis_.row(query.position_mm, component) - basis_.row(reference.position_mm, component);
+  // What the model does not describe is its own at every place.
+  const bool same = isRotation(component) || query.position_mm == reference.position_mm;
+  const double lack = same ? 0.0 : lack_of_fit_um_;
+  return {row.dot(parameters_), std::sqrt(std::max(0.0, row.dot(covariance_ * row)) + 2.0 * lack * lack)};
+}
+
 std::string orderText(const TableOrders& orders) {
   std::string text;
   for (int order = 2; order <= highest_order; ++order) {

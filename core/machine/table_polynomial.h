@@ -51,6 +51,8 @@ class TablePolynomialModel final : public ErrorModel {
   [[nodiscard]] std::string description() const override { return description_; }
   /// Rotations are those of the nine parameters. The sigma of a displacement holds the lack of fit.
   [[nodiscard]] PredictedComponent predict(const DeviationQuery& query, Component component) const override;
+  [[nodiscard]] PredictedComponent predictChange(const DeviationQuery& query, const DeviationQuery& reference,
+                                                 Component component) const override;
   [[nodiscard]] const TableBasis& basis() const noexcept { return basis_; }
   [[nodiscard]] const Eigen::VectorXd& parameters() const noexcept { return parameters_; }
   [[nodiscard]] const Eigen::MatrixXd& covariance() const noexcept { return covariance_; }

@@ -24,16 +24,26 @@ std::string BallCycleModel::description() const {
   return fmt::format("head, column, spindle and screws in cycle {} from the ball artefact", cycle_);
 }
 
+BallCycleModel::Row BallCycleModel::rowOf(const DeviationQuery& query, Component component) const {
+  if (!isRotation(component))
+    return ballDeviationJacobian(query.position_mm, query.tool_offset_mm, bearing_mm_).row(axisIndex(component));
+  Row row = Row::Zero();
+  row(axisIndex(component)) = 1.0;
+  row(3 + axisIndex(component)) = 1.0;
+  return row;
+}
+
 PredictedComponent BallCycleModel::predict(const DeviationQuery& query, Component component) const {
-  Eigen::Matrix<double, 1, 12> row = Eigen::Matrix<double, 1, 12>::Zero();
-  double unit = um_per_mm;
-  if (isRotation(component)) {
-    row(axisIndex(component)) = 1.0;
-    row(3 + axisIndex(component)) = 1.0;
-    unit = urad_per_rad;
-  } else {
-    row = ballDeviationJacobian(query.position_mm, query.tool_offset_mm, bearing_mm_).row(axisIndex(component));
-  }
+  return combined(rowOf(query, component), component);
+}
+
+PredictedComponent BallCycleModel::predictChange(const DeviationQuery& query, const DeviationQuery& reference,
+                                                 Component component) const {
+  return combined(rowOf(query, component) - rowOf(reference, component), component);
+}
+
+PredictedComponent BallCycleModel::combined(const Row& row, Component component) const {
+  const double unit = isRotation(component) ? urad_per_rad : um_per_mm;
   double variance = 0.0;
   for (int i = 0; i < 12; ++i) {
     for (int j = 0; j < 12; ++j) {

@@ -23,8 +23,15 @@ class BallCycleModel : public ErrorModel {
   BallCycleModel(const BallCycleResult& result, int cycle);
   [[nodiscard]] std::string description() const override;
   [[nodiscard]] PredictedComponent predict(const DeviationQuery& query, Component component) const override;
+  [[nodiscard]] PredictedComponent predictChange(const DeviationQuery& query, const DeviationQuery& reference,
+                                                 Component component) const override;
 
  private:
+  using Row = Eigen::Matrix<double, 1, 12>;
+  /// Sensitivity to the twelve parameters, mm or rad.
+  [[nodiscard]] Row rowOf(const DeviationQuery& query, Component component) const;
+  [[nodiscard]] PredictedComponent combined(const Row& row, Component component) const;
+
   std::string cycle_;
   Eigen::Matrix<double, 12, 1> theta_;
   Eigen::Matrix<double, 12, 12> covariance_;

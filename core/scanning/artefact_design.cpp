@@ -75,10 +75,15 @@ class StlText {
 }  // namespace
 
 void ArtefactDesignOptions::validate() const {
-  if (!(noise_um > 0.0) || !std::isfinite(noise_um))
-    throw InputError(fmt::format("Noise of the profiler: found {} µm; allowed: more than 0.", noise_um));
-  if (!(point_count >= 100.0) || !std::isfinite(point_count))
-    throw InputError(fmt::format("Number of points of a scan: found {}; allowed: at least 100.", point_count));
+  constexpr double least_um = 1e-6;
+  constexpr double most_um = 1e6;
+  if (!(noise_um >= least_um && noise_um <= most_um))
+    throw InputError(
+        fmt::format("Noise of the profiler: found {} µm; allowed: {:g} to {:g}.", noise_um, least_um, most_um));
+  constexpr double most_points = 1e12;
+  if (!(point_count >= 100.0 && point_count <= most_points))
+    throw InputError(
+        fmt::format("Number of points of a scan: found {}; allowed: 100 to {:g}.", point_count, most_points));
   if (!(steepest_slope > 0.0))
     throw InputError(fmt::format("Steepest slope: found {}; allowed: more than 0.", steepest_slope));
   if (drift_order < 0 || drift_order > 2)

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/scanning/artefact_surface.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
+#include <string_view>
 
 #include "core/base/error.h"
 
@@ -35,18 +38,25 @@ Eigen::Vector2d ArtefactSurface::gradient(double x_mm, double y_mm) const {
 }
 
 void ArtefactSurface::validate() const {
-  if (!(size_mm.minCoeff() > 0.0) || !size_mm.allFinite())
-    throw InputError("The size of the artefact must be positive in x and y (mm).");
-  for (const double value :
-       {amplitude_x_mm, amplitude_y_mm, amplitude_xy_mm, wave_number_x_per_mm, wave_number_y_per_mm}) {
-    if (!std::isfinite(value))
-      throw InputError(
-          "An amplitude or wave number of the surface is not a number; allowed: finite numbers (mm, rad/mm).");
+  // Beyond these no machine holds the part and no computation with it stays finite.
+  constexpr double least_mm = 1e-3;
+  constexpr double most_mm = 1e4;
+  constexpr double most_per_mm = 1e4;
+  const auto require = [](std::string_view what, double value, double least, double most, std::string_view unit) {
+    if (!(value >= least && value <= most))
+      throw InputError(fmt::format("{}: found {} {}; allowed: {:g} to {:g}.", what, value, unit, least, most));
+  };
+  require("Size of the artefact in x", size_mm.x(), least_mm, most_mm, "mm");
+  require("Size of the artefact in y", size_mm.y(), least_mm, most_mm, "mm");
+  for (const double amplitude : {amplitude_x_mm, amplitude_y_mm, amplitude_xy_mm})
+    require("Amplitude of the surface", amplitude, -most_mm, most_mm, "mm");
+  for (const double wave_number : {wave_number_x_per_mm, wave_number_y_per_mm})
+    require("Wave number of the surface", wave_number, 0.0, most_per_mm, "rad/mm");
+  for (const Bump& b : bumps) {
+    require("Radius of a bump", b.radius_mm, least_mm, most_mm, "mm");
+    require("Height of a bump", b.height_mm, -most_mm, most_mm, "mm");
+    for (const double place : b.centre_mm) require("Place of a bump", place, -most_mm, most_mm, "mm");
   }
-  if (!(wave_number_x_per_mm >= 0.0) || !(wave_number_y_per_mm >= 0.0))
-    throw InputError("The wave numbers of the surface must not be negative (rad/mm).");
-  for (const Bump& b : bumps)
-    if (!(b.radius_mm > 0.0)) throw InputError("The radius of a bump must be positive (mm).");
 }
 
 }  // namespace spindrift

@@ -132,9 +132,9 @@ void HeightSpline::fillHoles(std::vector<double>& heights) const {
       double sum = 0.0, weight = 0.0;
       constexpr std::array<std::array<int, 2>, 8> directions{
           {{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, 1}, {1, -1}, {-1, 1}, {-1, -1}}};
-      for (const auto& [dc, dr] : directions) {
+      for (const std::array<int, 2>& step : directions) {
         const auto value = [&](int n, double& out) {
-          const int cc = c + n * dc, rr = r + n * dr;
+          const int cc = c + n * step[0], rr = r + n * step[1];
           if (cc < 0 || rr < 0 || cc >= columns_ || rr >= rows_ || known[index(cc, rr)] == 0) return false;
           out = heights[index(cc, rr)];
           return true;

@@ -32,12 +32,12 @@
 // into at least three blocks of operation the physical prior of `response` has odds of 2.5 to 1 beforehand, that is,
 // the others must be better by some evidence and not by much. Uncertainty: posterior of every candidate plus their
 // scatter, which grows where the inputs leave what was seen; scaled so that errors and intervals agree in the runs that
-// judged, for `response` as for the others. Source: Bates and Granger 1969; Yao et al. 2018 (stacking and pseudo-BMA);
-// Tashman 2000 (rolling origins); Varma and Simon 2006 (nested cross-validation); Akaike 1970 (final prediction error).
-// ARX and output error are no candidates: in records of hours most ARX models have no equivalent in lags and output
-// error has too few rows before the origins, and where both could be judged the average was not better with them
-// (tests/benchmarks/thermal/choice_study.cpp). Failure: InputError as fitResponse;
-// FitStatus Degenerate if nothing could be determined.
+// judged, and in those alone that predict all that comes after them, for `response` as for the others. Source: Bates
+// and Granger 1969; Yao et al. 2018 (stacking and pseudo-BMA); Tashman 2000 (rolling origins); Varma and Simon 2006
+// (nested cross-validation); Akaike 1970 (final prediction error). ARX and output error are no candidates: in records
+// of hours most ARX models have no equivalent in lags and output error has too few rows before the origins, and where
+// both could be judged the average was not better with them (tests/benchmarks/thermal/choice_study.cpp). Failure:
+// InputError as fitResponse; FitStatus Degenerate if nothing could be determined.
 #pragma once
 
 #include <string>

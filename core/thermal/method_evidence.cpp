@@ -99,6 +99,7 @@ Evidence::Evidence(const Dictionary& d, const MethodChoiceOptions& options) {
   const double first = d.time_s.front();
   const double span = d.time_s.back() - first;
   for (const double part : options.origins) add(d, [&](std::size_t i) { return d.time_s[i] >= first + part * span; });
+  origins_ = runs_.size();
   for (int b = 0; b < d.blocks; ++b) add(d, [&](std::size_t i) { return d.block[i] == b; });
   nameJudges();
 }
@@ -306,6 +307,7 @@ double calibration(const Evidence& evidence, const std::vector<Candidate>& candi
                    const MethodChoiceOptions& options, const Keep& keep, double of_gains, double of_noise) {
   const Eigen::MatrixXd& rows = evidence.rows();
   std::vector<JudgedRun> judged;
+  std::vector<JudgedRun> ahead;
   for (std::size_t r = 0; r < evidence.runs().size(); ++r) {
     const Run& run = evidence.runs()[r];
     const std::vector<Weighted> there = weightsOf(evidence, candidates, static_cast<std::ptrdiff_t>(r), options, keep);
@@ -326,8 +328,12 @@ double calibration(const Evidence& evidence, const std::vector<Candidate>& candi
     for (std::size_t m = 0; m < there.size(); ++m)
       variance += there[m].weight * (predicted.col(static_cast<Index>(m)) - mean).array().square().matrix();
     judged.push_back({(held.col(held.cols() - 1) - mean).array().square(), variance.array()});
+    if (r < evidence.origins()) ahead.push_back(judged.back());
   }
-  return calibratedFactor(judged, of_noise + evidence.floor(), independentRuns(judged.size()));
+  const double noise = of_noise + evidence.floor();
+  const double independent = independentRuns(judged.size());
+  const double of_all = calibratedFactor(judged, noise, independent);
+  return ahead.empty() ? of_all : std::max(of_all, calibratedFactor(ahead, noise, independent));
 }
 
 }  // namespace spindrift::choice

@@ -66,6 +66,8 @@ class Evidence {
   Evidence(const response::Dictionary& d, const MethodChoiceOptions& options);
 
   [[nodiscard]] const std::vector<Run>& runs() const { return runs_; }
+  /// So many of the runs, the first ones, predict all that comes after them.
+  [[nodiscard]] std::size_t origins() const { return origins_; }
   [[nodiscard]] double sumOfSquares(Eigen::Index column) const { return all_(column + 1, column + 1); }
   [[nodiscard]] const Eigen::MatrixXd& rows() const { return rows_; }
   /// Mean square below which no run tells candidates apart: nothing is known better than to a hundredth of the course.
@@ -95,6 +97,7 @@ class Evidence {
   Eigen::MatrixXd all_whitened_;
   double floor_ = 0.0;
   std::vector<Run> runs_;
+  std::size_t origins_ = 0;
 };
 
 struct Weighted {

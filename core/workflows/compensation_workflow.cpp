@@ -26,12 +26,19 @@ class SumModel final : public ErrorModel {
     return effects_->description() + " on top of " + base_->description();
   }
   [[nodiscard]] PredictedComponent predict(const DeviationQuery& query, Component component) const override {
-    const PredictedComponent a = base_->predict(query, component);
-    const PredictedComponent b = effects_->predict(query, component);
-    return {a.value + b.value, std::hypot(a.sigma, gain_uncertainty_ * a.value, b.sigma)};
+    return sum(base_->predict(query, component), effects_->predict(query, component));
+  }
+  [[nodiscard]] PredictedComponent predictChange(const DeviationQuery& query, const DeviationQuery& reference,
+                                                 Component component) const override {
+    return sum(base_->predictChange(query, reference, component), effects_->predictChange(query, reference, component));
   }
 
  private:
+  /// One gain holds everywhere, so that a change is as uncertain as its size.
+  [[nodiscard]] PredictedComponent sum(const PredictedComponent& base, const PredictedComponent& effects) const {
+    return {base.value + effects.value, std::hypot(base.sigma, gain_uncertainty_ * base.value, effects.sigma)};
+  }
+
   std::shared_ptr<const ErrorModel> base_;
   double gain_uncertainty_;
   std::shared_ptr<const ErrorModel> effects_;
@@ -57,6 +64,14 @@ class LackingModel final : public ErrorModel {
     PredictedComponent predicted = model_->predict(query, component);
     if (!isRotation(component)) predicted.sigma = std::hypot(predicted.sigma, lack_um_[static_cast<int>(component)]);
     return predicted;
+  }
+  [[nodiscard]] PredictedComponent predictChange(const DeviationQuery& query, const DeviationQuery& reference,
+                                                 Component component) const override {
+    PredictedComponent change = model_->predictChange(query, reference, component);
+    if (isRotation(component) || query == reference) return change;
+    const double lack_um = lack_um_[static_cast<int>(component)];  // its own at every place
+    change.sigma = std::hypot(change.sigma, lack_um, lack_um);
+    return change;
   }
 
  private:

@@ -873,10 +873,6 @@
         <translation>Ein EWMA-Gewicht von</translation>
     </message>
     <message>
-        <source>An amplitude or wave number of the surface is not a number; allowed: finite numbers (mm, rad/mm).</source>
-        <translation>Eine Amplitude oder Wellenzahl der Fläche ist keine Zahl; zulässig: endliche Zahlen (mm, rad/mm).</translation>
-    </message>
-    <message>
         <source>An interval of {} days is not allowed; allowed: 0 (not said) to 36500.</source>
         <translation>Ein Intervall von {} Tagen ist nicht zulässig; zulässig: 0 (keine Angabe) bis 36500.</translation>
     </message>
@@ -1365,10 +1361,6 @@
         <translation>Es wird keine Unsicherheit angegeben: das Ziel ist keine Höhenkarte.</translation>
     </message>
     <message>
-        <source>Noise of the profiler: found {} µm; allowed: more than 0.</source>
-        <translation>Rauschen des Profilsensors: gefunden {} µm; zulässig: mehr als 0.</translation>
-    </message>
-    <message>
         <source>Nominal, forward, reverse in mm (COMP_FILE_TYPE = 0): where the axis really is; LinuxCNC subtracts by itself. {}{}. Measured from {:g} to {:g} mm; beyond that it is extrapolated.</source>
         <translation>Soll, vorwärts, rückwärts in mm (COMP_FILE_TYPE = 0): wo die Achse wirklich steht; LinuxCNC subtrahiert selbst. {}{}. Gemessen von {:g} bis {:g} mm; darüber hinaus extrapoliert.</translation>
     </message>
@@ -1391,10 +1383,6 @@
     <message>
         <source>Now {}: {}</source>
         <translation>Jetzt {}: {}</translation>
-    </message>
-    <message>
-        <source>Number of points of a scan: found {}; allowed: at least 100.</source>
-        <translation>Anzahl der Punkte eines Scans: gefunden {}; zulässig: mindestens 100.</translation>
     </message>
     <message>
         <source>One campaign cannot be compared; allowed: two or more.</source>
@@ -1969,10 +1957,6 @@
         <translation>Das Programm wird nicht gestartet: {}</translation>
     </message>
     <message>
-        <source>The radius of a bump must be positive (mm).</source>
-        <translation>Der Radius eines Höckers muss positiv sein (mm).</translation>
-    </message>
-    <message>
         <source>The radius of the pocket is {} mm; allowed: positive.</source>
         <translation>Der Radius der Tasche ist {} mm; zulässig: positiv.</translation>
     </message>
@@ -2085,10 +2069,6 @@
         <translation>Der Simulator scheiterte während der Anpassung: {}</translation>
     </message>
     <message>
-        <source>The size of the artefact must be positive in x and y (mm).</source>
-        <translation>Die Größe des Prüfkörpers muss in x und y positiv sein (mm).</translation>
-    </message>
-    <message>
         <source>The spacings of the virtual profiler must be positive (mm).</source>
         <translation>Die Punktabstände des virtuellen Profilsensors müssen positiv sein (mm).</translation>
     </message>
@@ -2191,10 +2171,6 @@
     <message>
         <source>The watchdog of {} does not hear us.</source>
         <translation>Die Überwachung (Watchdog) von {} hört uns nicht.</translation>
-    </message>
-    <message>
-        <source>The wave numbers of the surface must not be negative (rad/mm).</source>
-        <translation>Die Wellenzahlen der Fläche dürfen nicht negativ sein (rad/mm).</translation>
     </message>
     <message>
         <source>The width of a cell must not be negative (mm).</source>
@@ -9554,7 +9530,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>{} {} is not allowed; allowed: {:g} to {:g} mm/min.</source>
-        <translation>{} {} ist nicht erlaubt; erlaubt: {:g} bis {:g} mm/min.</translation>
+        <translation>{} {} ist nicht erlaubt; zulässig: {:g} bis {:g} mm/min.</translation>
     </message>
     <message>
         <source>{}{:g} is not known here</source>
@@ -9671,6 +9647,46 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>the search with the simulator</source>
         <translation>die Suche mit dem Simulator</translation>
+    </message>
+    <message>
+        <source>Amplitude of the surface</source>
+        <translation>Amplitude der Fläche</translation>
+    </message>
+    <message>
+        <source>Height of a bump</source>
+        <translation>Höhe eines Höckers</translation>
+    </message>
+    <message>
+        <source>Noise of the profiler: found {} µm; allowed: {:g} to {:g}.</source>
+        <translation>Rauschen des Profilsensors: gefunden {} µm; zulässig: {:g} bis {:g}.</translation>
+    </message>
+    <message>
+        <source>Number of points of a scan: found {}; allowed: 100 to {:g}.</source>
+        <translation>Anzahl der Punkte eines Scans: gefunden {}; zulässig: 100 bis {:g}.</translation>
+    </message>
+    <message>
+        <source>Place of a bump</source>
+        <translation>Ort eines Höckers</translation>
+    </message>
+    <message>
+        <source>Radius of a bump</source>
+        <translation>Radius eines Höckers</translation>
+    </message>
+    <message>
+        <source>Size of the artefact in x</source>
+        <translation>Größe des Prüfkörpers in x</translation>
+    </message>
+    <message>
+        <source>Size of the artefact in y</source>
+        <translation>Größe des Prüfkörpers in y</translation>
+    </message>
+    <message>
+        <source>Wave number of the surface</source>
+        <translation>Wellenzahl der Fläche</translation>
+    </message>
+    <message>
+        <source>{}: found {} {}; allowed: {:g} to {:g}.</source>
+        <translation>{}: gefunden {} {}; zulässig: {:g} bis {:g}.</translation>
     </message>
 </context>
 <context>

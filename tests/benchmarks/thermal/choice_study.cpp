@@ -6,6 +6,8 @@
 // height of tests/support/printer_run.h follows; its heaters by seed: soak, steps, hotter in the last part), `higher`
 // (those alone that get hotter, bodies), or `all`.
 // `choice_study LOG.csv OUTPUT[,OUTPUT] [PART]`: one record, trained on this part of it (default 0.6).
+// `choice_study LOG.csv OUTPUT subsets`: the same record with every set of its temperatures (at most six), trained on
+// 50, 60 and 70 % of it, all rows and every fifth one.
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
@@ -185,10 +187,55 @@ void conclude(const std::string& family, std::vector<Figures>& all) {
   for (const auto& [winner, times] : missed) std::printf("  of those above 1.1 %s won %d\n", winner.c_str(), times);
 }
 
+/// Every `step`-th row, without the temperatures that `mask` leaves out.
+TimeSeries part(const TimeSeries& whole, const std::string& output, unsigned mask, std::size_t step) {
+  TimeSeries out = whole;
+  const auto thinned = [&](const std::vector<double>& values) {
+    std::vector<double> kept;
+    for (std::size_t r = 0; r < values.size(); r += step) kept.push_back(values[r]);
+    return kept;
+  };
+  out.time_s = thinned(whole.time_s);
+  out.signals.clear();
+  unsigned number = 0;
+  for (const Signal& s : whole.signals) {
+    const bool temperature = s.kind == SignalKind::Temperature && s.name != output;
+    if (temperature && ((mask >> number++) & 1U) == 0) continue;
+    out.signals.push_back(s);
+    out.signals.back().values = thinned(s.values);
+  }
+  return out;
+}
+
+void studySubsets(const TimeSeries& whole, const std::string& output) {
+  const auto temperatures = std::count_if(whole.signals.begin(), whole.signals.end(), [&](const Signal& s) {
+    return s.kind == SignalKind::Temperature && s.name != output;
+  });
+  if (temperatures > 6) throw InputError("more than six temperatures have too many subsets; allowed: one to six.");
+  std::vector<Figures> all;
+  for (unsigned mask = 1; mask < (1U << temperatures); ++mask) {
+    for (const std::size_t step : {std::size_t{1}, std::size_t{5}}) {
+      for (const double trained : {0.5, 0.6, 0.7}) {
+        const TimeSeries series = part(whole, output, mask, step);
+        std::string name;
+        for (const Signal& s : series.signals)
+          if (s.name != output) name += s.name + " ";
+        all.push_back(study(series, output, trained));
+        print(name + std::to_string(step) + " " + std::to_string(trained).substr(0, 4), all.back());
+      }
+    }
+  }
+  conclude(output, all);
+}
+
 int run(int argc, char** argv) {
   if (argc > 1 && std::string(argv[1]).ends_with(".csv")) {
     const TimeSeries series = readTimeSeries(argv[1]);
     for (const std::string& output : splitList(argc > 2 ? argv[2] : "")) {
+      if (argc > 3 && std::string(argv[3]) == "subsets") {
+        studySubsets(series, output);
+        continue;
+      }
       Figures f = study(series, output, argc > 3 ? std::atof(argv[3]) : 0.6);
       print(output, f);
     }

@@ -111,6 +111,10 @@ TEST(EffectModel, EveryVariantOfEveryFamilySurvivesSavingAndLoading) {
       ASSERT_EQ(loaded->effects().size(), 1u) << effect.id;
       EXPECT_EQ(loaded->json(), model.json()) << effect.id;
       double largest = 0.0;
+      DeviationQuery reference;
+      reference.time_s = 9000.0;
+      reference.point = "F1";
+      reference.position_mm = {240.0, 200.0, 100.0};
       for (int i = 0; i < 12; ++i) {
         DeviationQuery q;
         q.time_s = random.uniform(0.0, 23000.0);
@@ -133,6 +137,12 @@ TEST(EffectModel, EveryVariantOfEveryFamilySurvivesSavingAndLoading) {
           EXPECT_NEAR(model.effectSigma({&row, 1})[0], predicted.sigma, 1e-9 * (1.0 + predicted.sigma)) << effect.id;
           largest = std::max(largest, std::abs(value));
           EXPECT_EQ(loaded->predict(q, c).value, value) << effect.id;
+          const PredictedComponent at_reference = model.predict(reference, c);
+          const PredictedComponent change = model.predictChange(q, reference, c);
+          EXPECT_NEAR(change.value, value - at_reference.value, 1e-9 * (1.0 + std::abs(value))) << effect.id;
+          EXPECT_LE(change.sigma, predicted.sigma + at_reference.sigma + 1e-9) << effect.id;
+          EXPECT_GE(change.sigma, std::abs(predicted.sigma - at_reference.sigma) - 1e-9) << effect.id;
+          EXPECT_EQ(model.predictChange(q, q, c).sigma, 0.0) << effect.id;
         }
       }
       EXPECT_GT(largest, 0.0) << effect.id << " predicts nothing at all";

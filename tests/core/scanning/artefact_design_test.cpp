@@ -7,7 +7,9 @@
 #include <cmath>
 #include <cstring>
 #include <fstream>
+#include <functional>
 #include <iterator>
+#include <string>
 
 #include "core/base/error.h"
 #include "core/base/random.h"
@@ -94,6 +96,32 @@ TEST(ArtefactDesign, LeavesOutWhatIsTooSteep) {
   EXPECT_THROW((void)designArtefact(steep, blind), InputError);
   steep.amplitude_xy_mm = std::nan("");
   EXPECT_THROW((void)designArtefact(steep), InputError);
+}
+
+TEST(ArtefactDesign, RefusesWhatNoMachineHolds) {
+  const auto refused = [](const std::function<void(ArtefactSurface&, ArtefactDesignOptions&)>& change) {
+    ArtefactSurface surface;
+    surface.bumps.push_back({{5.0, 20.0}, 2.0, 0.5});
+    ArtefactDesignOptions options;
+    change(surface, options);
+    try {
+      (void)designArtefact(surface, options);
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  for (const double value : {1e308, -1e308}) {
+    EXPECT_NE(refused([&](auto& s, auto&) { s.size_mm.x() = value; }), "");
+    EXPECT_NE(refused([&](auto& s, auto&) { s.amplitude_y_mm = value; }), "");
+    EXPECT_NE(refused([&](auto& s, auto&) { s.wave_number_x_per_mm = value; }), "");
+    EXPECT_NE(refused([&](auto& s, auto&) { s.bumps[0].height_mm = value; }), "");
+    EXPECT_NE(refused([&](auto& s, auto&) { s.bumps[0].centre_mm.y() = value; }), "");
+    EXPECT_NE(refused([&](auto&, auto& o) { o.noise_um = value; }), "");
+    EXPECT_NE(refused([&](auto&, auto& o) { o.point_count = value; }), "");
+  }
+  EXPECT_EQ(refused([](auto& s, auto&) { s.amplitude_x_mm = 1e308; }),
+            "Amplitude of the surface: found 1e+308 mm; allowed: -10000 to 10000.");
 }
 
 TEST(ArtefactDesign, StlIsClosedAndHoldsTheVolume) {
