@@ -210,9 +210,6 @@ void weigh(Analysis& a, const DiscrepancyInput& input, ResidualProblem& problem,
   problem.setNoise(noise);
 }
 
-/// Probability that one part alone is far off, and not all of them a little, from which on it is told.
-constexpr double least_told = 0.6;
-
 /// The part that is off by most; null where no part is.
 const SimulationPart* largestError(const std::vector<SimulationPart>& parts, const std::vector<PartError>& errors) {
   if (errors.empty()) return nullptr;
@@ -249,16 +246,13 @@ void analyse(Analysis& a, const DiscrepancyInput& input, ResidualProblem& proble
     return Eigen::VectorXd(problem.projected(fitted).colwise().squaredNorm());
   };
   const Eigen::VectorXd narrow = sizes();
-  const double stretch = problem.nuisancePart(problem.without(a.posterior.fit.contribution)).price;
   const double evidence = a.posterior.evidence - problem.nuisanceLogDeterminant();
   std::vector<NuisanceColumn> nuisances = nuisancesOf(priors.simulation_error);
   const std::size_t first_part = nuisances.size();
   for (const SimulationPart& part : parts) nuisances.push_back({part.values, priors.rough_simulation_error, true});
   problem.setNuisances(nuisances);
-  // Worth a look where the parts take up what was found, or where they are stretched further than a fair simulation is.
   constexpr double followed = 0.6;
-  constexpr double stretched = 9.0;
-  bool rough = narrow.size() == 0 || stretch > stretched || (sizes().array() < followed * narrow.array()).any();
+  bool rough = narrow.size() == 0 || (sizes().array() < followed * narrow.array()).any();
   const SimulationPart* far = nullptr;
   double far_probability = 0.0;
   const double fair = 1.0 - priors.rough_simulation - priors.far_part;
@@ -285,7 +279,7 @@ void analyse(Analysis& a, const DiscrepancyInput& input, ResidualProblem& proble
       const double count = static_cast<double>(parts.size());
       const double over_rough = weighed(priors.far_part / (count * fair)).second - of_rough;
       far_probability = 1.0 / (1.0 + std::exp(-0.5 * over_rough));
-      if (far_probability > least_told) far = largest;
+      if (over_rough > 0.0) far = largest;
       problem.setNuisances(nuisances);
     }
   }
