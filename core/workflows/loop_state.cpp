@@ -224,8 +224,7 @@ void LoopModels::restore(const JsonNode& state, const std::filesystem::path& log
     const OperatingLog rows = OperatingLog::read(log);
     times_ = rows.time_s();
     columns_[0] = signalOf(rows, "spindle_rpm");
-    for (std::size_t c = 0; c < plan_.temperatures.size(); ++c)
-      columns_[c + 1] = signalOf(rows, plan_.temperatures[c]);
+    for (std::size_t c = 0; c < plan_.temperatures.size(); ++c) columns_[c + 1] = signalOf(rows, plan_.temperatures[c]);
   }
   for (const JsonNode& each : state.at("identified").items()) {
     ThermalModel model = ThermalModel::parse(each.at("model"));

@@ -95,8 +95,7 @@ void ProfilerCalibrationPage::refresh() {
     QStringList sentences;
     // What the calibration cannot determine stands beside its numbers.
     for (const std::string& w : stored->warnings)
-      if (detail == nullptr || detail->scans == nullptr ||
-          w != calibrationWarning(detail->scans->mounting.calibration))
+      if (detail == nullptr || detail->scans == nullptr || w != calibrationWarning(detail->scans->mounting.calibration))
         sentences << coreSentence(w);
     if (sentences.isEmpty()) {
       callout()->show(Tone::Good, tr("Deviations found: %1; see what the calibration cannot determine.")
