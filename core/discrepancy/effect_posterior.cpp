@@ -128,10 +128,16 @@ double smoothIn(NoiseProfiles profiles, const std::array<bool, 6>& which) {
 
 }  // namespace
 
-double smoothBesideNoise(const ResidualProblem& problem, const JointFit& fit, const Eigen::VectorXd& left) {
-  const Eigen::VectorXd left_by_all = problem.without(fit.contribution);
-  const NoiseProfiles profiles = noiseProfiles(problem, left, {true, true, true, true, true, true});
-  return smoothIn(profiles, differing(problem, left, left_by_all - problem.nuisancePart(left_by_all).values));
+double smoothBesideNoise(const ResidualProblem& problem, const JointFit& fit, const JointFit& named) {
+  Eigen::VectorXd by_all = problem.without(fit.contribution);
+  Eigen::VectorXd by_named = problem.without(named.contribution);
+  const ResidualProblem::NuisancePart of_all = problem.nuisancePart(by_all);
+  const ResidualProblem::NuisancePart of_named = problem.nuisancePart(by_named);
+  by_all -= of_all.values;
+  by_named -= of_named.values;
+  const NoiseProfiles profiles = noiseProfiles(problem, by_named, {true, true, true, true, true, true});
+  // What is smooth also spares the nuisances that would be stretched without it.
+  return smoothIn(profiles, differing(problem, by_named, by_all)) + std::max(0.0, of_named.price - of_all.price);
 }
 
 bool holdsEffect(const Effect& container, const std::string& simple) {
@@ -514,7 +520,12 @@ void PosteriorSearch::weighAgainstUnknown(EffectPosterior& posterior, Remainder&
   for (Remainder::OfComponent& r : remainder.components) {
     std::array<bool, 6> one{};
     one[static_cast<std::size_t>(r.component)] = true;
-    r.evidence = std::min(r.evidence, smoothIn(with, one));
+    // What is smooth also spares the nuisances that would be stretched without it.
+    Eigen::VectorXd beside = problem_->without(fit.contribution);
+    for (Index u = 0; u < problem_->size(); ++u)
+      if (problem_->component[static_cast<std::size_t>(u)] == r.component) beside[u] -= remainder.values[u];
+    const double spared = taken.price - problem_->nuisancePart(beside).price;
+    r.evidence = std::min(r.evidence, smoothIn(with, one) + std::max(0.0, spared));
   }
   if (fit.terms.empty()) return;
   struct Weight {

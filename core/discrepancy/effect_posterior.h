@@ -131,10 +131,9 @@ struct Remainder {
   Eigen::VectorXd values;               ///< posterior mean over the units, um or urad
 };
 
-/// 2 ln of the odds that there is something smooth beside the noise in `left` (without nuisances), in the components in
-/// which `fit` leaves something else; infinite where too few readings could tell.
-[[nodiscard]] double smoothBesideNoise(const ResidualProblem& problem, const JointFit& fit,
-                                       const Eigen::VectorXd& left);
+/// 2 ln of the odds that there is something smooth beside the noise where `named` leaves more than `fit` does; infinite
+/// where too few readings could tell.
+[[nodiscard]] double smoothBesideNoise(const ResidualProblem& problem, const JointFit& fit, const JointFit& named);
 
 class PosteriorSearch {
  public:

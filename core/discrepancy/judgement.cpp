@@ -244,7 +244,7 @@ std::vector<Component> movedTogether(const ResidualProblem& problem, const Noise
 bool noiseExplains(const ResidualProblem& problem, const JointFit& fit, const JointFit& named) {
   Eigen::VectorXd left = problem.without(named.contribution);
   left -= problem.nuisancePart(left).values;
-  return smoothBesideNoise(problem, fit, left) < remainder_evidence &&
+  return smoothBesideNoise(problem, fit, named) < remainder_evidence &&
          movedTogether(problem, estimateNoise(problem, left, true)).empty();
 }
 

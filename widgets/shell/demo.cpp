@@ -133,10 +133,11 @@ void makeSmall(Scenario& scenario) {
 }
 
 std::string scenarioNameOf(const std::string& name) {
-  const auto found = std::find_if(demos().begin(), demos().end(), [&](const Demo& demo) { return demo.name == name; });
-  if (found == demos().end()) {
+  const std::vector<Demo> all = demos();
+  const auto found = std::find_if(all.begin(), all.end(), [&](const Demo& demo) { return demo.name == name; });
+  if (found == all.end()) {
     std::string known;
-    for (const Demo& demo : demos()) known += (known.empty() ? "" : ", ") + demo.name;
+    for (const Demo& demo : all) known += (known.empty() ? "" : ", ") + demo.name;
     throw InputError("demo \"" + name + "\" is not known; allowed: " + known + ".");
   }
   return found->scenario;
@@ -150,8 +151,8 @@ Scenario scenarioOf(const std::string& name, bool small) {
 
 }  // namespace
 
-const std::vector<Demo>& demos() {
-  static const std::vector<Demo> list{
+std::vector<Demo> demos() {
+  return {
       {"fiducials", "fiducials", demoText("Fiducials under the microscope"),
        demoText("Images of two thermal states become a heat map of the table."), "microscope"},
       {"holes", "hole_bar", demoText("Hole artefact and touch probe"),
@@ -166,7 +167,6 @@ const std::vector<Demo>& demos() {
       {"own_pattern", "own_pattern", demoText("Fiducials of your own artwork"),
        demoText("A campaign with its own pattern.json: 7 × 7 ellipses on a pitch of 455 µm."), "microscope", false},
   };
-  return list;
 }
 
 void makeDemoCampaign(const std::string& name, const std::filesystem::path& folder, bool small, JobContext& job) {

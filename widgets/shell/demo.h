@@ -21,7 +21,8 @@ struct Demo {
   bool on_first_screen = true;  ///< else in the menu only
 };
 
-[[nodiscard]] const std::vector<Demo>& demos();
+/// In the language of the window at this time.
+[[nodiscard]] std::vector<Demo> demos();
 /// Makes the campaign of a demo in a folder that does not exist yet. `small`: fewer and smaller images and clouds, for
 /// tour and tests.
 void makeDemoCampaign(const std::string& name, const std::filesystem::path& folder, bool small, JobContext& job);

@@ -24,15 +24,12 @@
 #include "widgets/jobs/job_bar.h"
 #include "widgets/jobs/job_runner.h"
 #include "widgets/models/rows_model.h"
-#include "widgets/pages/capture/new_capture_page.h"
-#include "widgets/panels/capture/arriving_panel.h"
 #include "widgets/services/incoming_service.h"
 #include "widgets/shell/command_palette.h"
 #include "widgets/shell/help_panel.h"
 #include "widgets/shell/notes_dialog.h"
 #include "widgets/shell/preferences_dialog.h"
 #include "widgets/shell/step_list.h"
-#include "widgets/shell/tour_details.h"
 #include "widgets/shell/welcome_page.h"
 
 namespace spindrift::gui {
@@ -111,29 +108,6 @@ TEST_F(OperatorTour, TheFirstScreenOffersWhatTheReadmeNamesAndEveryStepSaysHowIt
     pages.insert(window_->currentPage()->metaObject()->className());
   }
   EXPECT_EQ(pages.size(), 3U);
-}
-
-// 3.: captures as they arrive. Bad ones are asked for at once, and the plan says what comes next.
-TEST_F(OperatorTour, AFolderIsWatchedBadCapturesAreAskedForAndThePlanSaysWhatIsNext) {
-  window_->startDemo(QStringLiteral("fiducials"), true);
-  wait();
-  ASSERT_NE(window_->session().campaign(), nullptr);
-  sessions_.push_back(window_->session().folder());
-  ASSERT_EQ(startArriving(*window_, QString::fromStdString((folder_ / "arriving").string())), QString());
-  auto* arriving = page<NewCapturePage>()->arriving();
-  QPushButton* watch = nullptr;
-  for (auto* button : arriving->findChildren<QPushButton*>())
-    if (button->accessibleName() == QStringLiteral("Watch folder …")) watch = button;
-  ASSERT_NE(watch, nullptr);
-  EXPECT_TRUE(watch->isVisible());
-  EXPECT_EQ(arriving->arrived()->rowCount(), 4) << "three good images and a blurred one";
-  EXPECT_TRUE(arriving->retake()->isVisible());
-  EXPECT_TRUE(arriving->retake()->sentence().contains(QStringLiteral("again")))
-      << arriving->retake()->sentence().toStdString();
-  EXPECT_TRUE(arriving->service().progress().next.has_value()) << "what to take next";
-  EXPECT_FALSE(arriving->service().progress().sentence.empty());
-  arriving->service().stop();
-  window_->closeSession();
 }
 
 // 6.: "Folders, logs, images and clouds can be dropped onto the window" (folders and logs: FilesTest).
