@@ -41,6 +41,9 @@ constexpr double unlike_shifts_sd = 0.4;
 /// Sizes that are compared: the smallest over the own noise of a reading, how many, and their distance as logarithms.
 constexpr double smallest_shift = 0.06;
 constexpr int shift_sizes = 13;
+/// In own noise: by more, re-referencing shifts no state.
+constexpr double largest_shift = 1.2;
+constexpr double impossible = 1e3;
 constexpr double shift_step = 0.45;
 
 /// One component: its units in order of series and time, and the columns whose sizes are estimated.
@@ -690,7 +693,10 @@ NoiseProfiles noiseProfiles(const ResidualProblem& problem, const Eigen::VectorX
     }
     e.data.smooth.resize(readings, 0);
     e.data.hats.resize(readings, 0);
+    const double most_um = largest_shift * std::exp(e.p.log_scale) * e.data.mean_sigma;
     out[c].noise_alone = profile(std::move(e));
+    for (std::size_t i = 0; i + 1 < out[c].noise_alone.size(); ++i)
+      if (sizes[i] > most_um) out[c].noise_alone[i] = out[c].noise_alone.back() + impossible;
   });
   return out;
 }

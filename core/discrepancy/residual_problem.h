@@ -205,7 +205,7 @@ class ResidualProblem {
 /// likelihood for every size of the shifts of states, the last without any; one value where states cannot be shifted.
 struct NoiseProfile {
   std::vector<double> with_unknown;  ///< a smooth remainder and courses of single series beside the noise, as needed
-  std::vector<double> noise_alone;   ///< nothing beside the noise
+  std::vector<double> noise_alone;   ///< nothing beside the noise, and no larger shifts than re-referencing makes
   bool told_apart = true;            ///< false: too few readings for anything smooth, both are the same
 };
 using NoiseProfiles = std::array<NoiseProfile, 6>;

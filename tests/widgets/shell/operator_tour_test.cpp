@@ -110,30 +110,6 @@ TEST_F(OperatorTour, TheFirstScreenOffersWhatTheReadmeNamesAndEveryStepSaysHowIt
   EXPECT_EQ(pages.size(), 3U);
 }
 
-// 6.: "Folders, logs, images and clouds can be dropped onto the window" (folders and logs: FilesTest).
-TEST_F(OperatorTour, ImagesAndCloudsThatAreDroppedAreTakenIn) {
-  for (const auto& [demo, ending] : {std::pair{"fiducials", ".jpg"}, {"scans", ".pcd"}}) {
-    window_->startDemo(QString::fromLatin1(demo), true);
-    wait();
-    ASSERT_NE(window_->session().campaign(), nullptr);
-    sessions_.push_back(window_->session().folder());
-    QStringList files;
-    for (const auto& entry : std::filesystem::recursive_directory_iterator(window_->session().campaign()->folder)) {
-      if (entry.path().extension() != ending || files.size() == 2) continue;
-      const auto copy = folder_ / ("dropped " + entry.path().filename().string());
-      std::filesystem::copy_file(entry.path(), copy);
-      files << QString::fromStdString(copy.string());
-    }
-    ASSERT_EQ(files.size(), 2) << demo;
-    drop(files);
-    ASSERT_TRUE(QTest::qWaitFor([&] { return IncomingService::of(window_->session()).idle(); }, 20'000));
-    wait();
-    EXPECT_NE(message().find("2 "), std::string::npos) << demo << ": " << message();
-    EXPECT_EQ(message().find("cannot be opened"), std::string::npos) << demo << ": " << message();
-    window_->closeSession();
-  }
-}
-
 // 4.: the bar at the bottom, cancelling, and what was taken out comes back.
 TEST_F(OperatorTour, WorkIsCancelledInTheBarAndWhatIsTakenOutComesBack) {
   open(writeStoryCampaign(folder_, Hidden::Nothing), StepId::Model);
