@@ -222,8 +222,7 @@ bool hasPatternOf(const ResidualProblem& problem, const EffectSearch& search, co
   return left < alike * whole;
 }
 
-/// Components in which states are shifted by clearly more than readings scatter: re-referencing does not do that.
-constexpr double largest_shift = 1.2;
+/// Components in which states are shifted by more than re-referencing shifts them.
 std::vector<Component> movedTogether(const ResidualProblem& problem, const NoiseModel& noise) {
   std::vector<Component> out;
   for (const Component c : all_components) {

@@ -41,10 +41,9 @@ constexpr double unlike_shifts_sd = 0.4;
 /// Sizes that are compared: the smallest over the own noise of a reading, how many, and their distance as logarithms.
 constexpr double smallest_shift = 0.06;
 constexpr int shift_sizes = 13;
-/// In own noise: by more, re-referencing shifts no state.
-constexpr double largest_shift = 1.2;
-constexpr double impossible = 1e3;
 constexpr double shift_step = 0.45;
+/// 2 ln of the odds against shifts that noise does not make.
+constexpr double impossible = 1e3;
 
 /// One component: its units in order of series and time, and the columns whose sizes are estimated.
 struct ComponentData {
@@ -722,9 +721,9 @@ double jointDeviance(const NoiseProfiles& profiles, std::vector<double> NoisePro
           prior += w;
           likelihood += w * std::exp(-0.5 * (deviance[static_cast<std::size_t>(i)] - least));
         }
-        const double none = std::exp(-0.5 * (deviance.back() - least));
+        const double ln_none = -0.5 * (deviance.back() - least);  // of large shifts far below what exp can hold
         ln_level[static_cast<std::size_t>(level)] +=
-            std::log(shifted_too * likelihood / prior + (1.0 - shifted_too) * none) - std::log(none);
+            std::log(shifted_too * likelihood / prior + (1.0 - shifted_too) * std::exp(ln_none)) - ln_none;
       }
     }
     if (!shifted) continue;

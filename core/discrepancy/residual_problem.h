@@ -28,6 +28,11 @@
 
 namespace spindrift {
 
+/// Common shift of a state over the own noise of a reading (standard deviations) that an instrument makes at most,
+/// which is re-referenced, refocused or zeroed again: what shifts states by clearly more than readings scatter is no
+/// noise.
+inline constexpr double largest_shift = 1.2;
+
 /// Noise of one component.
 struct ComponentNoise {
   double scale = 1.0;               ///< own noise of a reading: actual / stated sigma

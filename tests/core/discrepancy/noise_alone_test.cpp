@@ -3,6 +3,7 @@
 // over all axes, beside smooth courses that nobody knows.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <string>
@@ -97,6 +98,18 @@ TEST(NoiseAlone, ShiftsOfOtherAxesSpeakForThoseOfThis) {
   }
   EXPECT_GT(beside_shifted, beside_still + 2.0);
   EXPECT_LE(never, 1);
+}
+
+TEST(NoiseAlone, LikelihoodsOfLargeShiftsStayNumbers) {
+  // Without shifts e^-2000 as probable: less than a double holds.
+  constexpr double worse = 4000.0;
+  NoiseProfiles profiles;
+  std::vector<double>& x = profiles[static_cast<std::size_t>(Component::EX)].noise_alone;
+  x = profilesOf(readings(3, {0.0, 0.0, 0.0}, 0.0))[static_cast<std::size_t>(Component::EX)].noise_alone;
+  std::fill(x.begin(), x.end(), worse);
+  x[6] = 0.0;
+  // Half of the odds for shifts at all, nine tenths for this axis, a thirteenth for the size.
+  EXPECT_NEAR(jointDeviance(profiles, &NoiseProfile::noise_alone), -2.0 * std::log(0.5 * 0.9 / 13.0), 0.5);
 }
 
 TEST(NoiseAlone, IsNotToldApartFromWhatIsSmoothByReadingsOnceEach) {

@@ -1,20 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The README's "A tour for the operator", clicked through in the real window: its seven points in their order, by the
-// buttons and keys that it names.
+// The README's "A tour for the operator", clicked through in the real window: its points in their order, by the buttons
+// and keys that it names. What is dropped onto the window: files_test.cpp, capture_pages_test.cpp.
 #include <gtest/gtest.h>
 
 #include <QApplication>
 #include <QContextMenuEvent>
-#include <QDragEnterEvent>
-#include <QDropEvent>
 #include <QMenu>
-#include <QMimeData>
 #include <QPushButton>
 #include <QSettings>
 #include <QTableView>
 #include <QTest>
 #include <QThread>
-#include <QUrl>
 #include <set>
 
 #include "core/base/atomic_file.h"
@@ -24,12 +20,14 @@
 #include "widgets/jobs/job_bar.h"
 #include "widgets/jobs/job_runner.h"
 #include "widgets/models/rows_model.h"
+#include "widgets/panels/capture/arriving_panel.h"
 #include "widgets/services/incoming_service.h"
 #include "widgets/shell/command_palette.h"
 #include "widgets/shell/help_panel.h"
 #include "widgets/shell/notes_dialog.h"
 #include "widgets/shell/preferences_dialog.h"
 #include "widgets/shell/step_list.h"
+#include "widgets/shell/tour_details.h"
 #include "widgets/shell/welcome_page.h"
 
 namespace spindrift::gui {
@@ -52,19 +50,6 @@ class OperatorTour : public StoryTest {
     ASSERT_TRUE(QTest::qWaitForWindowActive(window_.get()));
     QTest::keyClick(window_.get(), key, modifiers);
     QCoreApplication::processEvents();
-  }
-  void drop(const QStringList& files) {
-    QList<QUrl> urls;
-    for (const QString& file : files) urls << QUrl::fromLocalFile(file);
-    QMimeData data;
-    data.setUrls(urls);
-    QDragEnterEvent enter(QPoint(600, 400), Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
-    QCoreApplication::sendEvent(window_.get(), &enter);
-    EXPECT_TRUE(enter.isAccepted());
-    QDropEvent event(QPoint(600, 400), Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
-    QCoreApplication::sendEvent(window_.get(), &event);
-    QCoreApplication::processEvents();
-    wait();
   }
   [[nodiscard]] std::string message() const { return window_->jobBar()->message().toStdString(); }
 };
@@ -108,6 +93,31 @@ TEST_F(OperatorTour, TheFirstScreenOffersWhatTheReadmeNamesAndEveryStepSaysHowIt
     pages.insert(window_->currentPage()->metaObject()->className());
   }
   EXPECT_EQ(pages.size(), 3U);
+}
+
+// 3.: captures as they arrive. Bad ones are asked for at once, and the plan says what comes next.
+TEST_F(OperatorTour, AFolderIsWatchedBadCapturesAreAskedForAndThePlanSaysWhatIsNext) {
+  window_->startDemo(QStringLiteral("fiducials"), true);
+  wait();
+  ASSERT_NE(window_->session().campaign(), nullptr);
+  sessions_.push_back(window_->session().folder());
+  ASSERT_EQ(startArriving(*window_, QString::fromStdString((folder_ / "arriving").string())), QString());
+  // What has arrived says which instrument it is, and with it which page.
+  auto* arriving = window_->currentPage()->findChild<ArrivingPanel*>();
+  ASSERT_NE(arriving, nullptr) << window_->currentPage()->metaObject()->className();
+  QPushButton* watch = nullptr;
+  for (auto* button : arriving->findChildren<QPushButton*>())
+    if (button->accessibleName() == QStringLiteral("Watch folder …")) watch = button;
+  ASSERT_NE(watch, nullptr);
+  EXPECT_TRUE(watch->isVisible());
+  EXPECT_EQ(arriving->arrived()->rowCount(), 4) << "three good images and a blurred one";
+  EXPECT_TRUE(arriving->retake()->isVisible());
+  EXPECT_TRUE(arriving->retake()->sentence().contains(QStringLiteral("again")))
+      << arriving->retake()->sentence().toStdString();
+  EXPECT_TRUE(arriving->service().progress().next.has_value()) << "what to take next";
+  EXPECT_FALSE(arriving->service().progress().sentence.empty());
+  arriving->service().stop();
+  window_->closeSession();
 }
 
 // 4.: the bar at the bottom, cancelling, and what was taken out comes back.
