@@ -304,13 +304,17 @@ class ClosedLoop {
     models_.drive(values[0], time_s_);
     if (time_s_ < next_row_s_) return;
     next_row_s_ = std::floor(time_s_ / LoopModels::row_s + 1.0) * LoopModels::row_s;
+    writeRow(std::move(values));
+  }
+
+  void writeRow(std::vector<double> values) {
     // As the file has it: what is read again after a restart is the same.
     const double at_s = std::round(10.0 * time_s_) / 10.0;
     if (!models_.times().empty() && at_s <= models_.times().back()) return;
     std::string line = fmt::format("{:.1f}", at_s);
     for (double& value : values) {
       value = std::round(1e3 * value) / 1e3;
-      line += fmt::format(",{:.3f}", value);
+      line += std::isnan(value) ? "," : fmt::format(",{:.3f}", value);
     }
     if (!log_file_.append(line + "\n")) say(log_file_.failure());
     models_.addRow(at_s, values);
@@ -448,6 +452,7 @@ class ClosedLoop {
     state.searched = searched_;
     state.tried = tried_;
     state.ours = ours_;
+    state.measuring = measuring_;
     state.tool = tool_;
     state.home_mm = home_mm_;
     state.rehomed = rehomed_;
@@ -476,6 +481,14 @@ class ClosedLoop {
     if (!models_.times().empty()) {
       time_s_ = std::max(time_s_, models_.times().back());
       next_row_s_ = std::floor(models_.times().back() / LoopModels::row_s + 1.0) * LoopModels::row_s;
+    }
+    if (state.measuring && !models_.times().empty()) {
+      // The cycle had stopped the spindle, and it has stood since: the last row may still say that it turned.
+      std::vector<double> values = models_.lastRow();
+      values[0] = 0.0;
+      time_s_ = std::max(time_s_, models_.times().back() + 0.1);
+      models_.drive(0.0, time_s_);
+      writeRow(std::move(values));
     }
     if (models_.begun()) models_.observations().write(folder_ / "observations.csv");
     ++result_.resumed;

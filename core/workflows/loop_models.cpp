@@ -52,6 +52,13 @@ void LoopModels::addRow(double time_s, const std::vector<double>& values) {
   for (auto& [axis, each] : identified_) each.filter.advance(times_.back() - times_[times_.size() - 2]);
 }
 
+std::vector<double> LoopModels::lastRow() const {
+  SPINDRIFT_ASSERT(!times_.empty(), "the log has a row");
+  std::vector<double> out;
+  for (const std::vector<double>& column : columns_) out.push_back(column.back());
+  return out;
+}
+
 std::optional<LoopReading> LoopModels::reading(const std::string& line, double now_s, LoopStage stage) const {
   // "TOUCH point component x y z cx cy cz"
   std::istringstream words(line);

@@ -54,6 +54,8 @@ class LoopModels {
   /// The control said this just now: spindle speed, then the temperatures of the plan.
   void drive(double spindle_rpm, double now_s);
   void addRow(double time_s, const std::vector<double>& values);
+  /// As addRow had it last; one row at least.
+  [[nodiscard]] std::vector<double> lastRow() const;
   /// Nothing, if the line is no touch.
   [[nodiscard]] std::optional<LoopReading> reading(const std::string& line, double now_s, LoopStage stage) const;
   /// Takes a whole cycle (a reading for each touch of the plan): deviations, what was predicted, judgement of the

@@ -108,6 +108,7 @@ nlohmann::json LoopState::json(const LoopPlan& plan) const {
                         {"searched", searched},
                         {"tried", tried},
                         {"ours", ours},
+                        {"measuring", measuring},
                         {"rehomed", rehomed},
                         {"result", result.json()},
                         {"models", models}};
@@ -138,6 +139,7 @@ LoopState LoopState::read(const std::filesystem::path& file, const LoopPlan& pla
   if (tried.integer() < 0) tried.reject("a number of cycles");
   out.tried = static_cast<std::size_t>(tried.integer());
   out.ours = root.at("ours").boolean();
+  if (const auto measuring = root.find("measuring")) out.measuring = measuring->boolean();
   out.rehomed = root.at("rehomed").boolean();
   if (const auto tool = root.find("tool")) out.tool = tool->integer();
   if (const auto home = root.find("home_mm")) out.home_mm = home->vector3();

@@ -24,7 +24,8 @@ struct LoopState {
   std::string why = "time";
   bool searched = false;  ///< the simulation was held against the readings, and the operator has decided
   std::size_t tried = 0;
-  bool ours = false;  ///< a programme of the loop was running
+  bool ours = false;       ///< a programme of the loop was running
+  bool measuring = false;  ///< it was a measuring cycle, with the spindle at rest
   std::optional<int> tool;
   std::optional<Eigen::Vector3d> home_mm;
   bool rehomed = false;

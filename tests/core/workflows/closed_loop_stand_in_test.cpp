@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
 #include <optional>
 #include <thread>
@@ -124,11 +125,18 @@ TEST(LoopAtAStandIn, GoesOnWhereItWasKilledAndLosesNothing) {
   const LoopResult result = runClosedLoop(plan, control, who, campaign, job);
   EXPECT_TRUE(result.completed);
   EXPECT_EQ(result.resumed, 3);
-  EXPECT_GT(result.cycles.size(), cycles);
+  ASSERT_GT(result.cycles.size(), cycles + 2);
   EXPECT_TRUE(readFile(campaign / "observations.csv").starts_with(observations));
   EXPECT_TRUE(readFile(campaign / "log.csv").starts_with(log));
-  const double left = std::abs(result.cycles.back().with_um.z());
-  EXPECT_LT(left, 0.2 * std::abs(result.cycles.back().without_um.z()));
+  // Over the cycles of the last run, once it compensates again: how late a single one comes is up to the clock of this
+  // machine.
+  double with = 0.0, without = 0.0;
+  for (std::size_t i = cycles + 1; i < result.cycles.size(); ++i) {
+    with += result.cycles[i].with_um.z() * result.cycles[i].with_um.z();
+    without += result.cycles[i].without_um.z() * result.cycles[i].without_um.z();
+  }
+  std::printf("%.3f of what there is without\n", std::sqrt(with / without));
+  EXPECT_LT(std::sqrt(with / without), 0.15) << result.cycles.size() - cycles << " cycles";
   // It has ended, and is not begun again over what it left.
   EXPECT_THAT(refusal([&] { (void)runClosedLoop(plan, control, who, campaign, job); }), HasSubstr("reached its end"));
 }
