@@ -166,9 +166,11 @@ void alternate(Analysis& a, const DiscrepancyInput& input, ResidualProblem& prob
   }
 }
 
-/// Without what states or neighbours in time have in common.
-NoiseModel ownNoiseOf(NoiseModel noise) {
-  for (ComponentNoise& n : noise.component) {
+/// Without what states or neighbours in time have in common, in these components.
+NoiseModel ownNoiseOf(NoiseModel noise,
+                      const std::vector<Component>& components = {all_components.begin(), all_components.end()}) {
+  for (const Component c : components) {
+    ComponentNoise& n = noise.of(c);
     n.common = 0.0;
     n.correlated_part = 0.0;
     n.correlation_time_s = 0.0;
@@ -177,29 +179,40 @@ NoiseModel ownNoiseOf(NoiseModel noise) {
 }
 
 /// Noise and effects together. The first noise is estimated before any effect is known, and what moves all points of a
-/// state alike may have gone into it: where nothing is found beside such noise, the search begins once more with the
-/// own noise of the readings alone. Its answer stands if it is the more probable one with noise and a smooth remainder
-/// made as large as either answer needs.
+/// state alike may have gone into it: where nothing is found beside such noise, or states are shifted by more than an
+/// instrument shifts them, the search begins once more with the own noise of the readings alone. Its answer stands if
+/// it is the more probable one with noise and a smooth remainder made as large as either answer needs, and leaves no
+/// such shifts: what follows a part of them alone may be anything.
 void weigh(Analysis& a, const DiscrepancyInput& input, ResidualProblem& problem, const DiscrepancyOptions& options,
            const DiscrepancyPriors& priors, bool exact, const ModelTerm* off, JobContext& job) {
   const ResidualProblem::NuisancePart first = problem.nuisancePart(problem.y);
   const NoiseModel start = estimateNoise(problem, problem.y - first.values, false);
   problem.setNoise(start);
   alternate(a, input, problem, options, priors, exact, off, job);
-  const bool nothing = a.posterior.fit.terms.size() == (off == nullptr ? 0 : 1);
   // A simulator's own hypotheses do not hide in the noise: each is fitted to what it predicts.
-  if (!nothing || options.max_effects == 0 || input.tangents || !differs(problem.noise, ownNoiseOf(problem.noise)))
-    return;
+  if (options.max_effects == 0 || input.tangents) return;
   const NoiseModel noise = problem.noise;
+  const bool nothing = a.posterior.fit.terms.size() == (off == nullptr ? 0 : 1);
+  const NoiseModel own = nothing ? ownNoiseOf(start) : ownNoiseOf(noise, movedTogether(problem, noise));
+  if (!differs(noise, nothing ? ownNoiseOf(noise) : own)) return;
   const double clock_offset_s = a.clock_offset_s;
   const double clock_uncertainty_s = a.clock_uncertainty_s;
   const double simulation_error = a.simulation_error;
   std::unique_ptr<EffectSearch> search = std::move(a.search);
   EffectPosterior posterior = std::move(a.posterior);
   Remainder remainder = std::move(a.remainder);
-  problem.setNoise(ownNoiseOf(start));
+  problem.setNoise(own);
   alternate(a, input, problem, options, priors, exact, off, job);
-  if (a.posterior.over_unknown > priors.instead_of_common_noise) return;
+  const auto& found = a.posterior.fit.terms;
+  // Shifts have any course; what chooses its own onset is none the more probable for following them.
+  const bool driven =
+      nothing || std::all_of(found.begin(), found.end(), [&](const ModelTerm& term) {
+        return drivenByLog(term) || std::any_of(posterior.fit.terms.begin(), posterior.fit.terms.end(),
+                                                [&](const ModelTerm& t) { return t.effect->id == term.effect->id; });
+      });
+  if (driven && a.posterior.over_unknown > posterior.over_unknown + priors.instead_of_common_noise &&
+      movedTogether(problem, problem.noise).empty())
+    return;
   a.drivers->shiftClock(clock_offset_s - a.clock_offset_s);
   a.clock_offset_s = clock_offset_s;
   a.clock_uncertainty_s = clock_uncertainty_s;

@@ -275,6 +275,21 @@ Eigen::MatrixXd PosteriorSearch::modelErrorColumns(const JointFit& fit) const {
       }
       if (!column.isZero(0.0)) columns.push_back(std::move(column));
     }
+    // Driven by something else than what drives it: the course is off, in the pattern that the effect has.
+    if (!fit.terms[t].effect->driver_missing || !drivenByLog(fit.terms[t])) continue;
+    const Eigen::MatrixXd& shape = search_->shape(*fit.terms[t].effect);
+    const Eigen::VectorXd pattern = shape * fit.gains[t].head(shape.cols());
+    const Eigen::VectorXd moved = problem_->centred(f);
+    if (!(pattern.squaredNorm() > 0.0)) continue;
+    const double size = priors_.stand_in_error * moved.norm() / pattern.norm();
+    for (int h = 0; h < hats; ++h) {
+      Eigen::VectorXd column(f.size());
+      for (Index u = 0; u < f.size(); ++u) {
+        const double position = (problem_->time_s[static_cast<std::size_t>(u)] - start) / span * (hats - 1);
+        column[u] = size * pattern[u] * std::max(0.0, 1.0 - std::abs(position - h));
+      }
+      columns.push_back(std::move(column));
+    }
   }
   return joined(columns, problem_->size());
 }
@@ -648,7 +663,7 @@ EffectPosterior PosteriorSearch::run(const JobContext& job, const ModelTerm* off
   best = refined(std::move(best));
   // In the order of what each brings, the user's first. One that brings nothing any more leaves, and one in whose place
   // another turns out to be better, both with all lags refitted, makes room for it.
-  constexpr int most_replaced = 4;
+  constexpr int most_replaced = 4;  // at one number of effects
   int replaced = 0;
   std::vector<SlotEvidence> slots;
   for (;;) {
@@ -677,6 +692,7 @@ EffectPosterior PosteriorSearch::run(const JobContext& job, const ModelTerm* off
     std::vector<ModelTerm> fewer = best.fit.terms;
     fewer.erase(fewer.begin() + static_cast<std::ptrdiff_t>(idle));
     best = refined(stateOf(fewer, 1));
+    replaced = 0;
   }
   // What the user rejected is weighed beside the best without it, so that the answer says what it is given up for.
   for (const std::string& id : options_->reject) {

@@ -42,6 +42,9 @@ struct DiscrepancyPriors {
   double one_more = 0.05;
   /// Odds of an effect whose main driver is not in the log, beside one that shows what drives it.
   double without_driver = 0.5;
+  /// How far the course of what stands in for a driver that is not in the log (another temperature) is from the
+  /// driver's, as a part of its amplitude, at any time.
+  double stand_in_error = 0.4;
   /// Standard deviation of the relative error of a part of the simulation that is not worth a name; the same of a
   /// simulation all of whose parts are rough, how probable such a one is, and by how many of these deviations a part is
   /// off at most that is no more than rough: what is further off is missing, and told.

@@ -39,16 +39,6 @@ constexpr double alike = 0.03;
 /// Rivals beside the effect; more is no answer.
 constexpr std::size_t most_rivals = 2;
 
-/// Deviations from the mean of each series.
-Eigen::VectorXd centred(const ResidualProblem& problem, Eigen::VectorXd values) {
-  for (int s = 0; s < problem.seriesCount() && problem.free_constants; ++s) {
-    const Index from = problem.series_begin[static_cast<std::size_t>(s)];
-    const Index count = problem.series_begin[static_cast<std::size_t>(s) + 1] - from;
-    values.segment(from, count).array() -= values.segment(from, count).mean();
-  }
-  return values;
-}
-
 /// Of `values` what has the pattern of an effect, with any smooth course in time: what the same cause would leave if it
 /// acted otherwise. A common drift of all points is none of a play that changes its sign from reading to reading.
 Eigen::VectorXd inPatternOf(const ResidualProblem& problem, const Eigen::MatrixXd& shape,
@@ -69,12 +59,6 @@ Eigen::VectorXd inPatternOf(const ResidualProblem& problem, const Eigen::MatrixX
   const Eigen::VectorXd white = values.cwiseQuotient(sigma);
   const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(columns);
   return (columns * qr.solve(white)).cwiseProduct(sigma);
-}
-
-/// Variance of the own noise over that of its core: what outliers make of it; of very heavy tails not all.
-double varianceOfTails(const NoiseModel& noise) {
-  const double dof = std::max(4.0, noise.tail_dof);
-  return noise.tail_dof > 0.0 ? dof / (dof - 2.0) : 1.0;
 }
 
 /// The terms that are one load seen in several patterns, this one included: each has found its begin and its end for
@@ -109,14 +93,14 @@ double imitationRatio(const ResidualProblem& problem, const EffectSearch& search
   const auto ofLoad = [&](std::size_t k) { return std::find(load.begin(), load.end(), k) != load.end(); };
   Eigen::VectorXd moved = Eigen::VectorXd::Zero(problem.size());
   for (const std::size_t k : load) moved += fit.contribution[k];
-  const Eigen::VectorXd own = centred(problem, moved);
+  const Eigen::VectorXd own = problem.centred(moved);
   Eigen::VectorXd together = Eigen::VectorXd::Zero(problem.size());
   Eigen::VectorXd rest = Eigen::VectorXd::Zero(problem.size());
   for (std::size_t k = 0; k < fit.terms.size(); ++k)
     (unnamed[k] && !ofLoad(k) ? rest : together) += fit.contribution[k];
   const Eigen::VectorXd all = together;
-  together = centred(problem, together);
-  rest = centred(problem, rest);
+  together = problem.centred(together);
+  rest = problem.centred(rest);
   std::array<bool, 6> told{};
   for (const Remainder::OfComponent& r : remainder.components) {
     told[static_cast<std::size_t>(r.component)] = r.evidence >= remainder_evidence;
@@ -131,7 +115,7 @@ double imitationRatio(const ResidualProblem& problem, const EffectSearch& search
   double own_since = 0.0;
   double together_since = 0.0;
   const double largest = own.cwiseAbs().maxCoeff();
-  const double spread = varianceOfTails(problem.noise);
+  const double spread = problem.noise.varianceOfTails();
   for (Index u = 0; u < problem.size(); ++u) {
     const Component c = problem.component[static_cast<std::size_t>(u)];
     if (std::abs(moved[u]) < 1e-6 * largest) continue;
@@ -222,23 +206,6 @@ bool hasPatternOf(const ResidualProblem& problem, const EffectSearch& search, co
   return left < alike * whole;
 }
 
-/// Components in which states are shifted by more than re-referencing shifts them.
-std::vector<Component> movedTogether(const ResidualProblem& problem, const NoiseModel& noise) {
-  std::vector<Component> out;
-  for (const Component c : all_components) {
-    double own = 0.0;
-    double count = 0.0;
-    for (Index u = 0; u < problem.size(); ++u) {
-      if (problem.component[static_cast<std::size_t>(u)] != c) continue;
-      own += std::pow(problem.sigma[u] * noise.of(c).scale, 2);
-      count += 1.0;
-    }
-    if (count > 0.0 && noise.of(c).common > largest_shift * std::sqrt(varianceOfTails(noise) * own / count))
-      out.push_back(c);
-  }
-  return out;
-}
-
 /// True if noise alone explains what the named effects leave: nothing smooth, and no larger shifts than there are.
 bool noiseExplains(const ResidualProblem& problem, const JointFit& fit, const JointFit& named) {
   Eigen::VectorXd left = problem.without(named.contribution);
@@ -252,7 +219,7 @@ bool noiseExplains(const ResidualProblem& problem, const JointFit& fit, const Jo
 std::optional<double> commonPeriod(const ResidualProblem& problem, const JointFit& fit, Component c) {
   Eigen::VectorXd left = problem.y;
   for (const Eigen::VectorXd& part : fit.contribution) left -= part;
-  left = centred(problem, left);
+  left = problem.centred(left);
   std::vector<double> sum(static_cast<std::size_t>(problem.epoch_count), 0.0);
   std::vector<double> count(sum.size(), 0.0);
   for (Index u = 0; u < problem.size(); ++u) {
@@ -385,11 +352,11 @@ Judgement judge(const ResidualProblem& problem, const EffectSearch& search, cons
       name.rivals.push_back(a.id);
     }
     const bool slow_course = couldBeAnySlowCourse(problem, fit, t);
-    double unseen = 0.0;  // rivals that the log cannot show: each is as probable as this effect
+    double unseen =
+        0.0;  // by which rivals that the log cannot show are more probable: each is as probable as this effect
     for (const Effect& other : search.catalogue()) {
       if (other.id == effect.id) continue;
       if (!other.variants.empty() && !(slow_course && seenElsewhere(other))) continue;
-      if (std::find(name.rivals.begin(), name.rivals.end(), other.id) != name.rivals.end()) continue;
       // Whoever wrote down what drives an effect knows what it is; that its course follows speaks for it.
       if (effect.own && (effect.over_time || !fit.terms[t].variant.inputs[0].driver.empty())) continue;
       // One that holds a simpler effect is seen through that one.
@@ -399,8 +366,12 @@ Judgement judge(const ResidualProblem& problem, const EffectSearch& search, cons
       });
       if (seen) continue;
       if (!hasPatternOf(problem, search, other, fit, t)) continue;
+      const auto shown =
+          std::find_if(slot.others.begin(), slot.others.end(), [&](const Alternative& a) { return a.id == other.id; });
+      if (shown != slot.others.end() && shown->rejected) continue;
+      unseen += std::max(0.0, slot.probability - (shown == slot.others.end() ? 0.0 : shown->probability));
+      if (std::find(name.rivals.begin(), name.rivals.end(), other.id) != name.rivals.end()) continue;
       name.rivals.push_back(other.id);
-      unseen += 1.0;
       out.warnings.push_back(
           fmt::format("{} cannot be told from {}, because the log lacks what drives the latter: log it next time.",
                       effect.id, other.id));
@@ -506,9 +477,12 @@ Judgement judge(const ResidualProblem& problem, const EffectSearch& search, cons
     std::size_t worst = terms.size();
     double least = with / worse_held_out;
     for (std::size_t k = 0; k < terms.size(); ++k) {
-      // What has moved stays where it is: no reason to foretell it badly.
+      // What has moved stays where it is: no reason to foretell it badly. What stands in for a driver is believed as
+      // far as it foretells.
       const bool stays = terms[k].variant.inputs[0].dynamics == Dynamics::Step;
-      if (out.names[k].forced || (!enlarges && out.names[k].delta_evidence > beyond_held_out && !stays)) continue;
+      const bool stands_in = terms[k].effect->driver_missing && drivenByLog(terms[k]);
+      const bool beyond = out.names[k].delta_evidence > beyond_held_out && !stays && !stands_in;
+      if (out.names[k].forced || (!enlarges && beyond)) continue;
       std::vector<ModelTerm> others = terms;
       others.erase(others.begin() + static_cast<std::ptrdiff_t>(k));
       const double without = held_out(search.solve(others));

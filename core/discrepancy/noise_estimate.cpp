@@ -735,4 +735,25 @@ double jointDeviance(const NoiseProfiles& profiles, std::vector<double> NoisePro
   return out;
 }
 
+double NoiseModel::varianceOfTails() const noexcept {
+  const double dof = std::max(4.0, tail_dof);
+  return tail_dof > 0.0 ? dof / (dof - 2.0) : 1.0;
+}
+
+std::vector<Component> movedTogether(const ResidualProblem& problem, const NoiseModel& noise) {
+  std::vector<Component> out;
+  for (const Component c : all_components) {
+    double own = 0.0;
+    double count = 0.0;
+    for (Index u = 0; u < problem.size(); ++u) {
+      if (problem.component[static_cast<std::size_t>(u)] != c) continue;
+      own += std::pow(problem.sigma[u] * noise.of(c).scale, 2);
+      count += 1.0;
+    }
+    if (count > 0.0 && noise.of(c).common > largest_shift * std::sqrt(noise.varianceOfTails() * own / count))
+      out.push_back(c);
+  }
+  return out;
+}
+
 }  // namespace spindrift

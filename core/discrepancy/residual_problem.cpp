@@ -702,6 +702,15 @@ Eigen::MatrixXd ResidualProblem::withoutConstants(std::size_t d, const Eigen::Ma
   return out;
 }
 
+Eigen::VectorXd ResidualProblem::centred(Eigen::VectorXd values) const {
+  for (int s = 0; s < seriesCount() && free_constants; ++s) {
+    const Index from = series_begin[static_cast<std::size_t>(s)];
+    const Index count = series_begin[static_cast<std::size_t>(s) + 1] - from;
+    values.segment(from, count).array() -= values.segment(from, count).mean();
+  }
+  return values;
+}
+
 Eigen::MatrixXd ResidualProblem::whitened(const Eigen::MatrixXd& columns) const {
   if (columns.cols() == 0) return columns;  // Eigen's triangular product reads the first element of nothing
   Eigen::MatrixXd out = columns;

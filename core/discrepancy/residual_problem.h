@@ -49,6 +49,8 @@ struct NoiseModel {
 
   [[nodiscard]] const ComponentNoise& of(Component c) const { return component[static_cast<std::size_t>(c)]; }
   [[nodiscard]] ComponentNoise& of(Component c) { return component[static_cast<std::size_t>(c)]; }
+  /// Variance of the own noise over that of its core: what outliers make of it; of very heavy tails not all.
+  [[nodiscard]] double varianceOfTails() const noexcept;
 };
 
 /// A nuisance column over the units; prior_sigma = 0: free, else standard deviation of its coefficient.
@@ -140,6 +142,8 @@ class ResidualProblem {
   [[nodiscard]] const std::vector<Domain>& domains() const noexcept { return domains_; }
   /// Whitened columns of one domain without the free constants; `columns` has the domain's rows only.
   [[nodiscard]] Eigen::MatrixXd withoutConstants(std::size_t domain, const Eigen::MatrixXd& columns) const;
+  /// Deviations from the mean of each series, where constants are free; um or urad, not whitened.
+  [[nodiscard]] Eigen::VectorXd centred(Eigen::VectorXd values) const;
   /// Orthonormal basis of the nuisances besides the constants (all rows, then the priors).
   [[nodiscard]] const Eigen::MatrixXd& nuisanceBasis() const noexcept { return q_; }
   /// What is not one of the free constants: observations stand for deviations from themselves (false: absolute).
@@ -205,6 +209,9 @@ class ResidualProblem {
 /// with a prior whose size is estimated as well. Deterministic.
 /// Sources: Patterson and Thompson 1971 (REML); Lange, Little and Taylor 1989 (Student-t weights).
 [[nodiscard]] NoiseModel estimateNoise(const ResidualProblem& problem, const Eigen::VectorXd& residual, bool fitted);
+
+/// Components in which `noise` shifts states by more than re-referencing does (largest_shift).
+[[nodiscard]] std::vector<Component> movedTogether(const ResidualProblem& problem, const NoiseModel& noise);
 
 /// How probable a residual of one component is under noise that is made as large as it needs: -2 ln of the restricted
 /// likelihood for every size of the shifts of states, the last without any; one value where states cannot be shifted.

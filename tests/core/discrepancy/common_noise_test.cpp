@@ -2,6 +2,7 @@
 // What moves all points of a state alike may be an effect or re-referencing: neither is taken for the other.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <string>
 
@@ -50,6 +51,28 @@ TEST(CommonNoise, ShiftsOfStatesAreNotTakenForAnEffect) {
     bool shifts = false;
     for (const NoiseEstimate& noise : result.noise) shifts = shifts || noise.common_um > 0.1;
     EXPECT_TRUE(shifts) << "at number " << number;
+  }
+}
+
+TEST(CommonNoise, NoEffectHidesInShiftsBesideOthers) {
+  // Three effects under all that a workshop does. One of them, the same at all points, was held for shifts of states,
+  // larger than an instrument makes them, as two others were found beside it.
+  for (const std::uint64_t number : {8U, 19U}) {
+    StudyOptions study;
+    study.kind = StudyKind::Three;
+    study.strength = 5.0;
+    study.conditions = StudyConditions::together();
+    study.turn = 61'001 * 7 + 17 * 11 + number;
+    const StudyCase made = studyCase(study, 61'001'170'000ULL + number);
+    const DiscrepancyResult result = answerTo(made);
+    const auto named = [&](const std::string& id) {
+      return std::any_of(result.effects.begin(), result.effects.end(),
+                         [&](const FoundEffect& e) { return e.id == id; });
+    };
+    for (const std::string& id : made.hidden) EXPECT_TRUE(named(id)) << id << " at number " << number;
+    EXPECT_EQ(result.effects.size(), made.hidden.size()) << "at number " << number;
+    // Of rivals the more probable one is named.
+    for (const FoundEffect& e : result.effects) EXPECT_GT(e.confidence, 0.5) << e.id;
   }
 }
 

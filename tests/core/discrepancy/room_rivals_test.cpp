@@ -40,6 +40,7 @@ TEST(RoomRivals, WhatIsNamedInItsPlaceHasItAsRivalAndIsNoSurerThanThat) {
     const DiscrepancyResult result = findDiscrepancy(study::inputOf(simulateStudy(*made, job).campaign), options, job);
     for (const FoundEffect& effect : result.effects) {
       ++named;
+      if (effect.id == room) continue;  // found by what stands in for its driver
       EXPECT_THAT(effect.rivals, Contains(room)) << effect.id;
       // One of two that the log cannot tell apart.
       EXPECT_LT(effect.confidence, 0.6) << effect.id;
