@@ -178,11 +178,12 @@ void addCheck(std::vector<ReportRow>& rows, const char* name, const nlohmann::js
               const char* kind) {
   if (!check.is_object()) return;
   const bool passed = check.value("passed", check.value("settled", false));
+  const bool decided = check.value("status", std::string("converged")) == toString(FitStatus::Converged);
   std::string reason = textOf(check, "reason");
   if (reason.empty() && textOf(check, "by") == "operator") reason = "stated by the operator, not measured";
   if (const auto changed = stored.changed.find(kind); changed != stored.changed.end())
     reason = fmt::format("outdated, changed since: {}. {}", changed->second, reason);
-  rows.push_back({name, passed ? "passed" : "not passed", reason});
+  rows.push_back({name, passed ? "passed" : decided ? "not passed" : "not decided", reason});
 }
 
 /// What a model over time predicts; empty where the result does not say it.
@@ -279,13 +280,19 @@ void addOutdated(Report& document, const StoredResults& stored, const std::strin
 
 void addInstrumentState(Report& document, const StoredResults& stored, bool has_observations) {
   std::vector<ReportRow> rows;
-  addCheck(rows, "Warm-up", stored.warm_up, stored, "warm-up");
+  addCheck(rows, "Warm-up, measured", stored.warm_up, stored, "check-warm-up");
+  addCheck(rows, "Warm-up, stated", stored.warm_statement, stored, "");
   addCheck(rows, "Jogs", stored.jogs, stored, "check-jogs");
   addCheck(rows, "Cold repeatability", stored.repeatability, stored, "check-repeatability");
-  const bool unchecked = has_observations && !stored.warm_up.is_object();
+  const bool judged = stored.warm_up.is_object() && textOf(stored.warm_up, "status") == toString(FitStatus::Converged);
+  const bool unchecked = has_observations && !judged && !stored.warm_statement.is_object();
   if (rows.empty() && !unchecked) return;
   document.section("State of the instrument");
   if (unchecked) document.callout(CalloutKind::Attention, "Warm-up: " + warmUpNotChecked());
+  if (judged && !stored.warm_up.value("settled", false)) {
+    if (const std::string cause = textOf(stored.warm_up, "cause_reason"); !cause.empty())
+      document.callout(CalloutKind::Attention, "Warm-up: " + cause);
+  }
   if (!rows.empty()) document.table({"Check", "Verdict", "Reason"}, rows);
 }
 

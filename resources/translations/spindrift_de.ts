@@ -1813,10 +1813,6 @@
         <translation>Die Maschine soll {:g} s laufen; zulässig: über 0.</translation>
     </message>
     <message>
-        <source>The machine stood and its temperatures held meanwhile: it is the instrument that drifts.</source>
-        <translation>Die Maschine stand, und ihre Temperaturen hielten sich inzwischen: es driftet das Messgerät.</translation>
-    </message>
-    <message>
         <source>The measuring instrument warms itself after it was switched on and drifts to its steady state; the machine has no part in it.</source>
         <translation>Das Messgerät erwärmt sich nach dem Einschalten und driftet in seinen Beharrungszustand; die Maschine ist daran nicht beteiligt.</translation>
     </message>
@@ -5167,10 +5163,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>nicht beurteilt</translation>
     </message>
     <message>
-        <source>not known yet: the drift {} may still exceed {} µm/h; measure longer.</source>
-        <translation>noch nicht bekannt: die Drift {} kann noch {} µm/h überschreiten; länger messen.</translation>
-    </message>
-    <message>
         <source>not measured in this log,</source>
         <translation>in diesem Protokoll nicht gemessen,</translation>
     </message>
@@ -5189,10 +5181,6 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>not settled</source>
         <translation>nicht eingelaufen</translation>
-    </message>
-    <message>
-        <source>not settled: {} drifts faster than {} µm/h.</source>
-        <translation>nicht eingelaufen: {} driftet schneller als {} µm/h.</translation>
     </message>
     <message>
         <source>not started</source>
@@ -5393,10 +5381,6 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>point &quot;{}&quot; was not measured in state {}; allowed: {}.</source>
         <translation>Punkt „{}“ wurde in Zustand {} nicht gemessen; zulässig: {}.</translation>
-    </message>
-    <message>
-        <source>point {} was measured fewer than {} times: too few to see a drift.</source>
-        <translation>Punkt {} wurde weniger als {}-mal gemessen: zu selten, um eine Drift zu sehen.</translation>
     </message>
     <message>
         <source>points of kind &quot;fiducial&quot;</source>
@@ -5669,10 +5653,6 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>setting an interval</source>
         <translation>Intervall wird gesetzt</translation>
-    </message>
-    <message>
-        <source>settled: the drift of every axis is below {} µm/h with its uncertainty.</source>
-        <translation>eingelaufen: die Drift jeder Achse liegt mit ihrer Unsicherheit unter {} µm/h.</translation>
     </message>
     <message>
         <source>sharpness and odds of the choice between methods must be positive.</source>
@@ -9688,6 +9668,38 @@ endgültig fehlgeschlagen: {}</translation>
         <source>{}: found {} {}; allowed: {:g} to {:g}.</source>
         <translation>{}: gefunden {} {}; zulässig: {:g} bis {:g}.</translation>
     </message>
+    <message>
+        <source>Not known yet: the drift {} may still exceed {} µm/h; measure longer.</source>
+        <translation>Noch nicht bekannt: die Drift {} kann noch {} µm/h überschreiten; länger messen.</translation>
+    </message>
+    <message>
+        <source>Not settled: the drift {} exceeds {} µm/h.</source>
+        <translation>Nicht eingelaufen: die Drift {} überschreitet {} µm/h.</translation>
+    </message>
+    <message>
+        <source>Point {} was measured fewer than {} times: too few to see a drift.</source>
+        <translation>Punkt {} wurde weniger als {}-mal gemessen: zu selten, um eine Drift zu sehen.</translation>
+    </message>
+    <message>
+        <source>Settled: the drift of every axis is below {} µm/h with its uncertainty.</source>
+        <translation>Eingelaufen: die Drift jeder Achse liegt mit ihrer Unsicherheit unter {} µm/h.</translation>
+    </message>
+    <message>
+        <source>The machine stood and its temperatures held meanwhile: it is the instrument that drifts, and its drift would appear in every deviation as a motion of the machine.</source>
+        <translation>Die Maschine stand, und ihre Temperaturen hielten sich inzwischen: es driftet das Messgerät, und seine Drift erschiene in jeder Abweichung als Bewegung der Maschine.</translation>
+    </message>
+    <message>
+        <source>Checking whether the instrument had settled</source>
+        <translation>Es wird geprüft, ob das Messgerät eingelaufen war</translation>
+    </message>
+    <message>
+        <source>The model is fitted, but does not describe this state, or a point is disturbed: its residuals are larger than the stated uncertainties allow.</source>
+        <translation>Das Modell ist angepasst, beschreibt diesen Zustand aber nicht, oder ein Punkt ist gestört: seine Residuen sind größer, als die angegebenen Unsicherheiten erlauben.</translation>
+    </message>
+    <message>
+        <source>the check of the warm-up</source>
+        <translation>die Prüfung des Warmlaufs</translation>
+    </message>
 </context>
 <context>
     <name>help</name>
@@ -9866,10 +9878,6 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>A trend has one value a campaign. Dashed: control limits (3 standard deviations: scatter from campaign to campaign and uncertainty of the value). The moving average (EWMA) sees small shifts that last. Limits begin anew after an event that makes the machine another one. A change is named where chance makes one in fewer than 1 of 100 records. &lt;i&gt;Report&lt;/i&gt; writes all of a machine into one file.</source>
         <translation>Ein Verlauf hat einen Wert je Kampagne. Gestrichelt: Eingriffsgrenzen (3 Standardabweichungen: Streuung von Kampagne zu Kampagne und Unsicherheit des Werts). Der gleitende Mittelwert (EWMA) erkennt kleine, anhaltende Verschiebungen. Nach einem Ereignis, das die Maschine verändert, beginnen die Grenzen neu. Eine Änderung wird benannt, wo der Zufall sie in weniger als 1 von 100 Verläufen hervorbringt. &lt;i&gt;Bericht&lt;/i&gt; schreibt alles zu einer Maschine in eine Datei.</translation>
-    </message>
-    <message>
-        <source>An instrument that is still warming up measures itself. Measure one point every 5 minutes: the page fits the drift and says when it has settled.</source>
-        <translation>Ein Messgerät, das noch warm wird, misst sich selbst. Einen Punkt alle 5 Minuten messen: Die Seite passt die Drift an und zeigt, wann sie abgeklungen ist.</translation>
     </message>
     <message>
         <source>An uncertainty is one standard deviation unless stated otherwise.</source>
@@ -10234,6 +10242,10 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>No tables are written for Heidenhain (.COM, .CMA), Fanuc (pitch error data) and the sag compensation of Siemens (CEC): public documents do not state the sign of their values. The ISO 230-1 tables hold what the tools of the machine builder need for them.</source>
         <translation>Für Heidenhain (.COM, .CMA), Fanuc (Steigungsfehlerdaten) und die Durchhangkompensation von Siemens (CEC) werden keine Tabellen geschrieben: Öffentliche Unterlagen nennen das Vorzeichen ihrer Werte nicht. Die Tabellen nach ISO 230-1 enthalten, was die Werkzeuge des Maschinenherstellers dafür brauchen.</translation>
+    </message>
+    <message>
+        <source>An instrument that is still warming up measures itself. Measure one point every 5 minutes, then press &lt;b&gt;Check the drift&lt;/b&gt;: its fit says whether the instrument has settled.</source>
+        <translation>Ein Messgerät, das noch warm wird, misst sich selbst. Alle 5 Minuten einen Punkt messen, dann &lt;b>Drift prüfen&lt;/b> drücken: ihre Anpassung sagt, ob das Messgerät eingelaufen ist.</translation>
     </message>
 </context>
 <context>
@@ -21288,20 +21300,16 @@ einsatz</translation>
         <translation>Abweichung von %1 / µm</translation>
     </message>
     <message>
-        <source>Operator&apos;s statement: the instrument was warm. Reports will state this.</source>
-        <translation>Angabe des Bedieners: Messgerät war warm. Wird in Berichten vermerkt.</translation>
-    </message>
-    <message>
-        <source>This campaign has no warm-up measurement. Either measure one point every 5 minutes until it settles, or state that the instrument was warm.</source>
-        <translation>Diese Kampagne hat keine Warmlaufmessung. Entweder alle 5 Minuten einen Punkt messen, bis das Messgerät eingelaufen ist, oder erklären, dass es warm war.</translation>
-    </message>
-    <message>
         <source>Withdraw the statement</source>
         <translation>Angabe zurücknehmen</translation>
     </message>
     <message>
         <source>Drift now / (µm/h)</source>
         <translation>Drift jetzt / (µm/h)</translation>
+    </message>
+    <message>
+        <source>Check the drift</source>
+        <translation>Drift prüfen</translation>
     </message>
 </context>
 <context>

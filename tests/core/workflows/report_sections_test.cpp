@@ -120,7 +120,7 @@ TEST_F(ReportSections, CloudsAreSeenFromAboveWithHolesLeftWhite) {
 
 TEST_F(ReportSections, TellsPlanChecksCompensationAndVerification) {
   ReportOptions options;
-  options.stored.warm_up = {{"settled", true}, {"by", "operator"}};
+  options.stored.warm_statement = {{"settled", true}, {"by", "operator"}};
   options.stored.repeatability = {{"passed", false}, {"reason", "EX returns within 4 µm only."}};
   options.stored.plan = nlohmann::json::parse(
       R"({"format":"spindrift-plan","version":1,"states":[{"name":"M0","due_s":0,"what":"cold"}],
@@ -171,7 +171,18 @@ TEST_F(ReportSections, ASkippedWarmUpIsSaid) {
   ReportOptions options;
   options.stored.jogs = {{"passed", true}, {"reason", "EX returns within 0.2 µm."}};
   EXPECT_THAT(html(options), HasSubstr(sentence)) << "another check is not the warm-up";
-  options.stored.warm_up = {{"settled", true}, {"by", "operator"}};
+  options.stored.warm_up = {{"status", "degenerate"}, {"settled", false}, {"reason", "Point F1 was measured twice."}};
+  EXPECT_THAT(html(options), HasSubstr(sentence)) << "nothing was seen";
+  EXPECT_THAT(html(options), HasSubstr("not decided"));
+  options.stored.warm_up = {{"status", "converged"},
+                            {"settled", false},
+                            {"reason", "Not settled: EX drifts."},
+                            {"cause", "unknown"},
+                            {"cause_reason", "Nobody logged what the machine did."}};
+  EXPECT_THAT(html(options), HasSubstr("Warm-up: Nobody logged what the machine did."));
+  EXPECT_THAT(html(options), HasSubstr("Not settled: EX drifts."));
+  options.stored.warm_up = nullptr;
+  options.stored.warm_statement = {{"settled", true}, {"by", "operator"}};
   EXPECT_THAT(html(options), Not(HasSubstr(sentence)));
 }
 
