@@ -195,6 +195,26 @@ VerifyFigures verifyFigures(const std::vector<const VerifyPoint*>& points, bool 
   return f;
 }
 
+std::vector<VerifyPointFigures> verifyFiguresOfPoints(const VerifyResult& result, Component component) {
+  std::vector<VerifyPointFigures> figures;
+  std::vector<std::vector<const VerifyPoint*>> values;
+  for (const VerifyPoint& p : result.points) {
+    if (p.component != component) continue;
+    const auto found = std::find_if(figures.begin(), figures.end(), [&](const auto& f) { return f.point == p.point; });
+    if (found == figures.end()) {
+      figures.push_back({p.point, {}, {}});
+      values.push_back({&p});
+    } else {
+      values[static_cast<std::size_t>(found - figures.begin())].push_back(&p);
+    }
+  }
+  for (std::size_t i = 0; i < figures.size(); ++i) {
+    figures[i].before = verifyFigures(values[i], false);
+    figures[i].after = verifyFigures(values[i], true);
+  }
+  return figures;
+}
+
 std::string_view toString(VerifyVerdict verdict) noexcept {
   switch (verdict) {
     case VerifyVerdict::Met:

@@ -10245,7 +10245,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>An instrument that is still warming up measures itself. Measure one point every 5 minutes, then press &lt;b&gt;Check the drift&lt;/b&gt;: its fit says whether the instrument has settled.</source>
-        <translation>Ein Messgerät, das noch warm wird, misst sich selbst. Alle 5 Minuten einen Punkt messen, dann &lt;b>Drift prüfen&lt;/b> drücken: ihre Anpassung sagt, ob das Messgerät eingelaufen ist.</translation>
+        <translation>Ein Messgerät, das noch warm wird, misst sich selbst. Alle 5 Minuten einen Punkt messen, dann &lt;b&gt;Drift prüfen&lt;/b&gt; drücken: ihre Anpassung sagt, ob das Messgerät eingelaufen ist.</translation>
     </message>
 </context>
 <context>
@@ -16961,6 +16961,10 @@ einsatz</translation>
         <source>Reading the fit</source>
         <translation>Anpassung wird gelesen</translation>
     </message>
+    <message>
+        <source>Reading the points</source>
+        <translation>Punkte werden gelesen</translation>
+    </message>
 </context>
 <context>
     <name>spindrift::gui::NoisePanel</name>
@@ -21045,6 +21049,10 @@ einsatz</translation>
             <numerusform>%n Wert verglichen</numerusform>
             <numerusform>%n Werte verglichen</numerusform>
         </translation>
+    </message>
+    <message>
+        <source>Reading the points</source>
+        <translation>Punkte werden gelesen</translation>
     </message>
 </context>
 <context>
