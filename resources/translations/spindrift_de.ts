@@ -9700,6 +9700,14 @@ endgültig fehlgeschlagen: {}</translation>
         <source>the check of the warm-up</source>
         <translation>die Prüfung des Warmlaufs</translation>
     </message>
+    <message>
+        <source>1 picture</source>
+        <translation>1 Bild</translation>
+    </message>
+    <message>
+        <source>{} pictures</source>
+        <translation>{} Bilder</translation>
+    </message>
 </context>
 <context>
     <name>help</name>

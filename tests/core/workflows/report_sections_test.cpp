@@ -98,6 +98,26 @@ TEST_F(ReportSections, ShowsImagesAndSaysWhichCannotBeRead) {
   EXPECT_NEAR(std::stod(box[1]) / std::stod(box[2]), 1.5, 0.01);
 }
 
+TEST_F(ReportSections, WhatIsGoneWhenTheReportIsWrittenIsSaidInItsPlace) {
+  std::filesystem::create_directories(folder_ / "captures/images");
+  cv::imwrite((folder_ / "captures/images/a.png").string(), cv::Mat(60, 80, CV_8U, cv::Scalar(128)));
+  const std::string columns = "time_s,state,fiducial,role,index,x_mm,y_mm,z_mm,spindle_deg,image\n";
+  writeFileAtomically(folder_ / "captures/fiducials.csv", columns +
+                                                              "0,M0,F1,focus,0,1,2,3,0,captures/images/a.png\n"
+                                                              "1,M0,F2,focus,0,1,2,3,0,captures/images/b.png\n");
+  ReportOptions options;
+  options.evaluated = CampaignEvaluation();
+  std::string text = html(options);
+  EXPECT_THAT(text, HasSubstr("The first image of every fiducial and state"));
+  EXPECT_THAT(text, HasSubstr("1 of 2 pictures is left out: captures/images/b.png is missing or cannot be read."));
+  std::filesystem::remove(folder_ / "captures/images/a.png");
+  text = html(options);
+  EXPECT_THAT(text,
+              HasSubstr("2 of 2 pictures are left out: captures/images/a.png and captures/images/b.png are missing "
+                        "or cannot be read."));
+  EXPECT_THAT(text, Not(HasSubstr("The first image of"))) << "no empty frames";
+}
+
 TEST_F(ReportSections, CloudsAreSeenFromAboveWithHolesLeftWhite) {
   std::vector<float> xyz, height;
   for (int x = 0; x < 200; ++x)
@@ -205,7 +225,7 @@ TEST_F(ReportSections, OfALogAloneTellsConditionsStandardTestModelAndCompensatio
                                      {"steps", 181},
                                      {"holding_steps", 0},
                                      {"fallback_steps", 0},
-                                     {"warnings", {"the model of Z_um was called not good enough"}},
+                                     {"warnings", {"The model of Z_um was called not good enough"}},
                                      {"outputs",
                                       {{{"name", "Z_um"},
                                         {"rms_before", 9.5},
