@@ -204,6 +204,14 @@ TEST(Layers, NobodyBranchesOnTheNameOfATask) {
   EXPECT_THAT(wrong, ::testing::IsEmpty());
 }
 
+/// Warnings and notes are sentences of their own, on every page, in the list of steps and in reports: nobody behind has
+/// to give them a capital. (The sentence of an error follows the name of its file.)
+TEST(Layers, WarningsAreSentencesFromTheirBeginning) {
+  const std::regex small_letter(
+      R"re((warnings|notes)\.(push_back|emplace_back)\(\s*(std::string\()?\s*(fmt::format\(\s*)?"[a-z]+[^a-z.])re");
+  EXPECT_THAT(holding(fs::path(SPINDRIFT_SOURCE_DIR) / "core", small_letter), ::testing::IsEmpty());
+}
+
 TEST(Layers, ErrorsCarryLinesOfFilesAsNumbers) {
   const std::regex line_in_words(R"re(\{[^{};]*,\s*(fmt::format\()?"line [0-9{])re");
   const std::regex first_line(R"re(fail\(file, "line )re");

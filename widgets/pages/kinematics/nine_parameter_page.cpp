@@ -278,7 +278,7 @@ void NineParameterPage::showFit() {
   QString warnings;
   for (const std::string& w : f.warnings) warnings += QLatin1Char(' ') + coreSentence(w);
   higher_->setEnabled(order.richer());
-  const QString reason = sentenceStart(coreSentence(order.reason));
+  const QString reason = coreSentence(order.reason);
   higher_->setToolTip(onScreen(reason));
   if (f.status == FitStatus::Converged) {
     if (order.richer() || !warnings.isEmpty()) warnings += QLatin1Char(' ') + reason;
