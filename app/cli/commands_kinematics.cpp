@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fmt/format.h>
 
+#include <array>
 #include <memory>
+#include <optional>
+#include <string>
 
 #include "app/cli/command.h"
 #include "app/cli/picture_files.h"
@@ -175,34 +178,70 @@ CommandResult runPlacement(const FitArguments& a, JobContext& job) {
   return {answer.json(), answer.summary(), answer.result.status == FitStatus::Converged ? Done : NotGoodEnough};
 }
 
+CheckResult warmUpOf(const Campaign& campaign, const FitArguments& a, JobContext& job) {
+  WarmUpOptions options;
+  options.drift_limit_um_per_h = a.drift_limit_um_per_h;
+  std::optional<ObservationSet> set;
+  if (a.observations.empty()) set = warmUpMeasurement(campaign, {});
+  if (!set) set = observationsOf(campaign, a.observations, {}, job);
+  return checkResultOf(judgeWarmUp(*set, a.point, options, campaign.log ? &*campaign.log : nullptr));
+}
+
+template <CheckResult (*check)(const ObservationSet&, const MachineDescription&)>
+CheckResult againstResolution(const Campaign& campaign, const FitArguments& a, JobContext& job) {
+  return check(observationsOf(campaign, a.observations, {}, job), campaign.machine);
+}
+
+CheckResult readWarmUp(const nlohmann::json& stored) {
+  return checkResultOf(warmUpFrom(stored));
+}
+
+CheckResult readResolutionCheck(const nlohmann::json& stored) {
+  return checkResultOf(resolutionCheckFrom(stored));
+}
+
+/// A check of the instrument: of the folder of a campaign, and as the task of a session.
+struct InstrumentCheckCommand {
+  const char* name;
+  const char* task;
+  const char* description;
+  CheckResult (*run)(const Campaign&, const FitArguments&, JobContext&);
+  CheckResult (*read)(const nlohmann::json& stored);
+};
+constexpr std::array check_commands{
+    InstrumentCheckCommand{"warm-up", "check-warm-up",
+                           "Check whether the instrument is thermally stable: drift per axis (µm/h) from repeated "
+                           "measurements of one point",
+                           warmUpOf, readWarmUp},
+    InstrumentCheckCommand{"validate-jogs", "check-jogs",
+                           "Validate measured axis steps (jogs), one per state, against the axis resolution",
+                           againstResolution<checkJogs>, readResolutionCheck},
+    InstrumentCheckCommand{"repeatability", "check-repeatability",
+                           "Cold repeatability: all states measured cold; verdict against half the axis resolution",
+                           againstResolution<checkRepeatability>, readResolutionCheck},
+};
+
 /// Of a session: what it keeps, if that still holds, else worked out and kept.
-CommandResult checkInSession(const FitArguments& a, JobContext& job, const std::string& task) {
+CommandResult checkInSession(const FitArguments& a, JobContext& job, const InstrumentCheckCommand& check) {
   if (!a.observations.empty())
     throw InputError({a.campaign, ""},
                      "is a session, which keeps its own observations; --observations is for the folder of a campaign.");
+  if (!a.point.empty() || a.drift_limit_um_per_h != WarmUpOptions().drift_limit_um_per_h)
+    throw InputError(
+        {a.campaign, ""},
+        "is a session, which judges the warm-up as the window does; --point and --limit are for the folder "
+        "of a campaign.");
   SessionSource source(a.campaign, a.of_session, job);
-  const bool made = !source.tasks().run(task, job).empty();
-  const nlohmann::json& stored = source.tasks().graph().latest(task)->payload;
-  const CheckResult result = checkResultOf(resolutionCheckFrom(stored));
+  const bool made = !source.tasks().run(check.task, job).empty();
+  const nlohmann::json& stored = source.tasks().graph().latest(check.task)->payload;
+  const CheckResult result = check.read(stored);
   return {stored, made ? result.summary : result.summary + "taken from the session: still current\n",
           result.passed ? Done : NotGoodEnough};
 }
 
-CommandResult runCheck(const FitArguments& a, JobContext& job, const std::string& which) {
-  if (which != "warm-up" && isSession(a.campaign))
-    return checkInSession(a, job, which == "validate-jogs" ? "check-jogs" : "check-repeatability");
-  const Campaign campaign = Campaign::read(a.campaign);
-  const ObservationSet observations = observationsOf(campaign, a.observations, {}, job);
-  CheckResult result;
-  if (which == "warm-up") {
-    WarmUpOptions options;
-    options.drift_limit_um_per_h = a.drift_limit_um_per_h;
-    result = checkWarmUp(observations, a.point, options, campaign.log ? &*campaign.log : nullptr);
-  } else if (which == "validate-jogs") {
-    result = checkJogs(observations, campaign.machine);
-  } else {
-    result = checkRepeatability(observations, campaign.machine);
-  }
+CommandResult runCheck(const FitArguments& a, JobContext& job, const InstrumentCheckCommand& check) {
+  if (isSession(a.campaign)) return checkInSession(a, job, check);
+  const CheckResult result = check.run(Campaign::read(a.campaign), a, job);
   return {result.json, result.summary, result.passed ? Done : NotGoodEnough};
 }
 
@@ -266,33 +305,22 @@ void addKinematicsCommands(CLI::App& app, CommandLine& line) {
     command->add_option("--sigma-xy", a->sigma_xy_um, "Standard uncertainty of a displacement in the plane in µm");
     command->add_option("--sigma-z", a->sigma_z_um, "Standard uncertainty of a height in µm");
   }
-  const auto addCheck = [&](const std::string& name, const std::string& description) {
+  for (const InstrumentCheckCommand& check : check_commands) {
     auto a = std::make_shared<FitArguments>();
     CLI::App* command =
-        addCommand(app, line, name, description, [a, name](JobContext& job) { return runCheck(*a, job, name); });
+        addCommand(app, line, check.name, std::string(check.description) + "; of a session, the result is kept there",
+                   [a, &check](JobContext& job) { return runCheck(*a, job, check); });
     addCommonOptions(command, a);
-    return std::pair(command, a);
-  };
-  {
-    const auto [command, a] = addCheck("warm-up",
-                                       "Check whether the instrument is thermally stable: drift per axis (µm/h) from "
-                                       "repeated measurements of one point");
+    command->get_option("CAMPAIGN")->description("Folder of the campaign, or of a session");
+    command->add_option("--campaign", a->of_session, "Campaign of the session; default: the one opened last")
+        ->type_name("NAME");
+    if (check.run != warmUpOf) continue;
     command->add_option("--point", a->point,
                         "The point that was measured repeatedly; default: the one with the most rows");
     command
         ->add_option("--limit", a->drift_limit_um_per_h,
                      "Drift in µm/h below which the instrument is regarded as stable")
         ->check(positiveNumber());
-  }
-  const std::string kept = "; of a session, the result is kept there";
-  for (const auto& [name, description] :
-       {std::pair("validate-jogs", "Validate measured axis steps (jogs), one per state, against the axis resolution"),
-        std::pair("repeatability",
-                  "Cold repeatability: all states measured cold; verdict against half the axis resolution")}) {
-    const auto [command, a] = addCheck(name, description + kept);
-    command->get_option("CAMPAIGN")->description("Folder of the campaign, or of a session");
-    command->add_option("--campaign", a->of_session, "Campaign of the session; default: the one opened last")
-        ->type_name("NAME");
   }
 }
 

@@ -223,11 +223,11 @@ InstrumentEvaluation evaluateFiducials(const Campaign& campaign, JobContext& job
   }
   if (!any_change && list.states().size() > 1) {
     evaluation.good_enough = false;
-    evaluation.warnings.emplace_back("no displacement could be measured: see the rejected captures.");
+    evaluation.warnings.emplace_back("No displacement could be measured: see the rejected captures.");
   }
   if (evaluation.observations.rows.empty()) {
     evaluation.good_enough = false;
-    if (list.states().size() <= 1) evaluation.warnings.emplace_back("no fiducial could be evaluated.");
+    if (list.states().size() <= 1) evaluation.warnings.emplace_back("No fiducial could be evaluated.");
   }
   job.report(1.0, "evaluated");
   return evaluation;

@@ -231,7 +231,7 @@ void findDisplacements(const std::vector<std::string>& states, FiducialDisplacem
   for (const auto& [what, state] : {std::pair{"position in the plane", &xy_state}, std::pair{"height", &z_state}}) {
     if (all.empty() || state->empty() || *state == all.front()) continue;
     out.warnings.push_back(
-        fmt::format("no fiducial has a {} in {}: its change is relative to {}.", what, all.front(), *state));
+        fmt::format("No fiducial has a {} in {}: its change is relative to {}.", what, all.front(), *state));
   }
 }
 
@@ -478,13 +478,13 @@ FiducialDisplacement findFiducialDisplacement(const FiducialCaptureList& list, c
     findDirections(list, images, groups, out);
     if (!out.axes.pooled) {
       out.warnings.push_back(
-          fmt::format("the direction of the camera differs between fiducials or states ({}): "
+          fmt::format("The direction of the camera differs between fiducials or states ({}): "
                       "each fiducial is turned by its own axis images.",
                       pValueText(out.axes.p_value)));
     }
   } else {
     out.warnings.emplace_back(
-        "no images along X or Y could be used: displacements in the plane cannot be turned into "
+        "No images along X or Y could be used: displacements in the plane cannot be turned into "
         "the machine's axes and are left out.");
   }
 
@@ -547,11 +547,11 @@ FiducialDisplacement findFiducialDisplacement(const FiducialCaptureList& list, c
   if (!rotation_sets.empty()) {
     out.centres = fitCentreOfRotation(rotation_sets);
     if (out.centres.status != FitStatus::Converged) {
-      out.warnings.push_back(fmt::format("the centre of rotation cannot be found: {}.", out.centres.message));
+      out.warnings.push_back(fmt::format("The centre of rotation cannot be found: {}.", out.centres.message));
       for (FiducialState& s : out.states) s.centre.reset();
     } else if (out.centres.pooling != CentrePooling::All) {
       out.warnings.push_back(fmt::format(
-          "the centre of rotation is not the same everywhere ({}): {} is used. The microscope has "
+          "The centre of rotation is not the same everywhere ({}): {} is used. The microscope has "
           "moved in the spindle or had not settled.",
           pValueText(std::min(out.centres.p_value_all, out.centres.p_value_per_state)), toString(out.centres.pooling)));
     }

@@ -130,6 +130,7 @@ void WarmUpOptions::validate() const {
 WarmUpResult judgeWarmUp(const ObservationSet& observations, const std::string& point, const WarmUpOptions& options) {
   options.validate();
   WarmUpResult result;
+  result.drift_limit_um_per_h = options.drift_limit_um_per_h;
   const std::vector<std::string> points = observations.points();
   result.point = point;
   if (point.empty()) {
@@ -194,20 +195,20 @@ WarmUpResult judgeWarmUp(const ObservationSet& observations, const std::string& 
   }
   if (!any) {
     result.status = FitStatus::Degenerate;
-    result.reason = fmt::format("point {} was measured fewer than {} times: too few to see a drift.", result.point,
+    result.reason = fmt::format("Point {} was measured fewer than {} times: too few to see a drift.", result.point,
                                 options.window_points);
     return result;
   }
   result.status = FitStatus::Converged;
   result.settled = settled;
   if (settled) {
-    result.reason = fmt::format("settled: the drift of every axis is below {} µm/h with its uncertainty.",
+    result.reason = fmt::format("Settled: the drift of every axis is below {} µm/h with its uncertainty.",
                                 options.drift_limit_um_per_h);
   } else if (!drifting.empty()) {
     result.reason =
-        fmt::format("not settled: {} drifts faster than {} µm/h.", joinedList(drifting), options.drift_limit_um_per_h);
+        fmt::format("Not settled: the drift {} exceeds {} µm/h.", joinedList(drifting), options.drift_limit_um_per_h);
   } else {
-    result.reason = fmt::format("not known yet: the drift {} may still exceed {} µm/h; measure longer.",
+    result.reason = fmt::format("Not known yet: the drift {} may still exceed {} µm/h; measure longer.",
                                 joinedList(unsure), options.drift_limit_um_per_h);
   }
   return result;
@@ -260,7 +261,9 @@ WarmUpResult judgeWarmUp(const ObservationSet& observations, const std::string& 
   }
   if (at_work.empty() && warming.empty() && motion_logged) {
     result.cause = WarmUpCause::Instrument;
-    result.cause_reason = "The machine stood and its temperatures held meanwhile: it is the instrument that drifts.";
+    result.cause_reason =
+        "The machine stood and its temperatures held meanwhile: it is the instrument that drifts, and its drift would "
+        "appear in every deviation as a motion of the machine.";
     return result;
   }
   constexpr std::size_t most_named = 3;

@@ -49,6 +49,7 @@ enum class WarmUpCause {
 
 struct WarmUpResult {
   FitStatus status = FitStatus::NotRun;  ///< Degenerate: too few measurements
+  double drift_limit_um_per_h = 0.0;     ///< that it was judged by
   std::string point;
   std::array<WarmUpAxis, 3> axes;  ///< EX, EY, EZ
   bool settled = false;

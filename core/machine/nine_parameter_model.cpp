@@ -350,7 +350,7 @@ StateDifferences differencesFromReference(const ObservationSet& set, const std::
     if (inState(o)) in_state.push_back(i);
   }
   if (rotations) {
-    change.warnings.emplace_back("observed rotations are left out: the nine parameters are fitted to displacements.");
+    change.warnings.emplace_back("Observed rotations are left out: the nine parameters are fitted to displacements.");
   }
   std::vector<std::string> without_reference;
   for (const std::size_t i : in_state) {
@@ -476,7 +476,7 @@ NineParameterFit fitNineParameters(const ObservationSet& observations, const Nin
     fit.p_value = chiSquaredTail(fit.chi2, fit.degrees_of_freedom);
     if (fit.rejected()) {
       fit.warnings.push_back(
-          fmt::format("the residuals are larger than the stated uncertainties allow (chi-squared {:.1f} with {} "
+          fmt::format("The residuals are larger than the stated uncertainties allow (chi-squared {:.1f} with {} "
                       "degrees of freedom, "
                       "{}): the nine parameters do not describe this state, or a point is disturbed.",
                       fit.chi2, fit.degrees_of_freedom, pValueText(*fit.p_value)));

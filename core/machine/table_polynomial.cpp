@@ -325,7 +325,7 @@ TableOrderChoice chooseTableOrder(const NineParameterFit& fit) {
   TableOrderChoice choice;
   if (fit.status != FitStatus::Converged) {
     choice.status = FitStatus::Degenerate;
-    choice.reason = "the points do not determine the nine parameters, and so nothing of higher order.";
+    choice.reason = "The points do not determine the nine parameters, and so nothing of higher order.";
     return choice;
   }
   const Frame frame = frameOf(fit);
@@ -382,24 +382,26 @@ TableOrderChoice chooseTableOrder(const NineParameterFit& fit) {
       choice.left_out_chosen_um = richer_um;
       choice.left_out_nine_um = nine_um;
       choice.reason = fmt::format(
-          "{} is needed (the nine parameters alone: probability {:.2g}); it predicts points left out to {:.2f} µm, the "
+          "A model of {} is needed (the nine parameters alone: probability {:.2g}); it predicts points left out to "
+          "{:.2f} "
+          "µm, the "
           "nine parameters to {:.2f} µm.",
           orderText(likeliest), choice.probability_of_nine, *richer_um, *nine_um);
     } else if (!enough) {
       choice.reason = fmt::format(
-          "the nine parameters alone are improbable ({:.2g}), but there are too few points to check a model of {} on "
+          "The nine parameters alone are improbable ({:.2g}), but there are too few points to check a model of {} on "
           "points it was not fitted to.",
           choice.probability_of_nine, orderText(likeliest));
     } else {
       choice.reason = fmt::format(
-          "the nine parameters alone are improbable ({:.2g}), but {} does not predict points left out any better "
+          "The nine parameters alone are improbable ({:.2g}), but {} does not predict points left out any better "
           "({:.2f} µm against {:.2f} µm): single points are disturbed, or what is missing is of another kind.",
           choice.probability_of_nine, orderText(likeliest), richer_um.value_or(0.0), nine_um.value_or(0.0));
     }
   } else {
     choice.reason = choice.candidates.size() == 1
-                        ? "there are too few points to see anything of higher order than the nine parameters."
-                        : fmt::format("the nine parameters are enough (probability {:.2g} among {} models).",
+                        ? "There are too few points to see anything of higher order than the nine parameters."
+                        : fmt::format("The nine parameters are enough (probability {:.2g} among {} models).",
                                       choice.probability_of_nine, choice.candidates.size());
   }
   if (!choice.richer()) {

@@ -39,7 +39,7 @@ ArtefactCertificate ArtefactCertificate::of(const MachineDescription& machine, c
 std::string ArtefactCertificate::takenAsExact(const std::string& artefact, double strain) const {
   if (taken_as_exact.empty() || !(strain > 0.0)) return {};
   return fmt::format(
-      "the machine file states no uncertainty of {} of {}: taken as exact, though lengths were corrected by up to "
+      "The machine file states no uncertainty of {} of {}: taken as exact, though lengths were corrected by up to "
       "{:.1f} µm/m.",
       joinedList(taken_as_exact), artefact, strain * um_per_m_per_unit);
 }

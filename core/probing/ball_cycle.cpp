@@ -108,7 +108,7 @@ BallCycleResult evaluateBallCycles(const TouchList& list, const MachineDescripti
   }
   if (!without_bearing.empty()) {
     result.warnings.push_back(fmt::format(
-        "the machine file gives no fixed bearing for {}; screw expansion is counted from 0 mm there, which shifts the "
+        "The machine file gives no fixed bearing for {}; screw expansion is counted from 0 mm there, which shifts the "
         "spindle drift by the expansion times the distance to the real bearing.",
         joinedList(without_bearing)));
   }
@@ -225,7 +225,7 @@ BallCycleResult evaluateBallCycles(const TouchList& list, const MachineDescripti
   }
   if (worst_mm > 2.0) {
     result.warnings.push_back(
-        fmt::format("distance {} differs from the certificate by {:.2f} mm: are balls swapped or is this another "
+        fmt::format("Distance {} differs from the certificate by {:.2f} mm: are balls swapped or is this another "
                     "artefact?",
                     worst_pair, worst_mm));
   }

@@ -431,14 +431,14 @@ class Assembler {
     }
     if (result_.cycles.size() < 2) {
       result_.status = FitStatus::Degenerate;
-      result_.message = "one cycle alone is the reference; thermal errors need a second one";
+      result_.message = "One cycle alone is the reference; thermal errors need a second one";
       result_.warnings.push_back(result_.message + ".");
     }
     double freedom = 0.0;
     for (const double f : fit.group_degrees_of_freedom) freedom += f;
     if (result_.cycles.size() >= 2 && freedom < 8.0) {
       result_.warnings.push_back(fmt::format(
-          "the touch noise rests on {:.0f} degrees of freedom only; the uncertainties are rough.", freedom));
+          "The touch noise rests on {:.0f} degrees of freedom only; the uncertainties are rough.", freedom));
     }
     FeatureOptions options;
     options.axis = assembly_.axis;

@@ -248,7 +248,7 @@ void warnOfCertificate(const Artefact& artefact, const ArtefactCertificate& cert
                                              certificate.reference_degC));
   if (!certificate.expansion_per_K && warmest_K > 0.0) {
     result.warnings.push_back(
-        fmt::format("the expansion coefficient of {} is not stated: its lengths against the certificate are not "
+        fmt::format("The expansion coefficient of {} is not stated: its lengths against the certificate are not "
                     "corrected for {:.1f} K.",
                     artefact.id, warmest_K));
   }

@@ -13,6 +13,7 @@ struct CampaignFacts {
   bool own_observations = false;
   bool simulation = false;  ///< one to compare with
   bool log = false;
+  bool warm_up = false;  ///< a measurement for the warm-up alone (warm_up.csv)
   /// A log with a measured output over time, without captures or observations.
   bool log_only = false;
 

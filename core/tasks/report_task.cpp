@@ -7,6 +7,7 @@
 
 #include "core/base/atomic_file.h"
 #include "core/base/text.h"
+#include "core/tasks/steps.h"
 #include "core/tasks/task_options.h"
 
 namespace spindrift {
@@ -37,10 +38,9 @@ StoredResults storedOf(const TaskGraph& graph) {
   const auto kept = [&](const char* key) {
     return graph.session().setting(campaignKey(key, graph.campaign())).value_or(nlohmann::json());
   };
-  const nlohmann::json warm = kept(option_keys::warm_statement);
   out.plan = kept(option_keys::plan);
-  // Sessions of earlier versions keep the operator's word as a result; an empty object takes that back.
-  out.warm_up = warm.is_object() && warm.contains("by") ? warm : warm.is_null() ? payload("warm-up") : nlohmann::json();
+  out.warm_statement = warmStatement(graph).value_or(nlohmann::json());
+  out.warm_up = payload("check-warm-up");
   out.jogs = payload("check-jogs");
   out.repeatability = payload("check-repeatability");
   out.thermal = payload("thermal");

@@ -166,6 +166,10 @@ StepReport model(const TaskGraph& graph) {
   }
   const std::string status = payload.value("status", std::string("converged"));
   if (status != "converged") return report(StepState::Attention, payload.value("message", status));
+  if (payload.value("rejected", false))
+    return report(StepState::Attention,
+                  "The model is fitted, but does not describe this state, or a point is disturbed: its residuals are "
+                  "larger than the stated uncertainties allow.");
   step.sentence = "The model is fitted.";
   return step;
 }
@@ -212,13 +216,25 @@ StepReport warmUp(const TaskGraph& graph) {
     if (result->payload.value("status", std::string()) == toString(FitStatus::Converged))
       return report(StepState::Attention, result->payload.value("reason", std::string()));
   }
-  const nlohmann::json given =
-      graph.session().setting(campaignKey(option_keys::warm_statement, graph.campaign())).value_or(nlohmann::json());
-  if (given.is_object() && given.contains("by"))
-    return report(StepState::Current, "You stated that the instrument was warm.");
-  // Versions before kept the statement as a result; an empty object takes it back.
-  if (given.is_null() && graph.latest("warm-up") != nullptr)
-    return report(StepState::Current, "You stated that the instrument was warm.");
+  const bool stated = warmStatement(graph).has_value();
+  StepReport step = ofTask(graph, "check-warm-up", "");
+  std::string found;
+  if (step.state == StepState::Current) {
+    try {
+      const WarmUpResult result = warmUpFrom(graph.latest("check-warm-up")->payload);
+      found = result.reason;
+      if (result.settled) return report(StepState::Current, result.reason);
+      // A drift that may be the machine's own says nothing against the operator.
+      if (result.status == FitStatus::Converged && (!stated || result.cause == WarmUpCause::Instrument))
+        return report(StepState::Attention, result.reason + " " + result.cause_reason);
+    } catch (const InputError& e) {
+      return report(StepState::Attention, e.what());
+    }
+  } else if (step.state != StepState::NotStarted && step.state != StepState::Blocked && !stated) {
+    return step;
+  }
+  if (stated) return report(StepState::Current, "You stated that the instrument was warm.");
+  if (!found.empty()) return report(StepState::NotStarted, found + " " + warmUpNotChecked());
   return report(StepState::NotStarted,
                 graph.hasObservations() ? warmUpNotChecked() : "Check whether the instrument had settled.");
 }
@@ -242,6 +258,15 @@ std::size_t rowsOf(const Campaign& campaign, const char* list) {
 }
 
 }  // namespace
+
+std::optional<nlohmann::json> warmStatement(const TaskGraph& graph) {
+  nlohmann::json given =
+      graph.session().setting(campaignKey(option_keys::warm_statement, graph.campaign())).value_or(nlohmann::json());
+  if (given.is_object() && given.contains("by")) return given;
+  // Sessions of earlier versions keep it as a result; an empty object takes that back.
+  const StoredResult* result = given.is_null() ? graph.latest("warm-up") : nullptr;
+  return result == nullptr ? std::nullopt : std::optional(result->payload);
+}
 
 std::string_view toString(StepId step) noexcept {
   constexpr std::array names{"Machine",     "Warm-up",    "Capture", "Calibrate", "Model",
@@ -311,6 +336,8 @@ StepReport stepReport(const TaskGraph& graph, StepId step, const CaptureCounts& 
 
 std::string taskOfStep(const TaskGraph& graph, StepId step) {
   switch (step) {
+    case StepId::WarmUp:
+      return graph.facts().log_only ? "" : "check-warm-up";
     case StepId::Capture:
       return "check";
     case StepId::Calibrate:

@@ -4,6 +4,8 @@
 
 #include <array>
 #include <cstddef>
+#include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -45,6 +47,8 @@ struct CaptureCounts {
   [[nodiscard]] static CaptureCounts of(const TaskGraph& graph);
 };
 
+/// The operator's word that the instrument was warm ("settled", "by"), if it was given.
+[[nodiscard]] std::optional<nlohmann::json> warmStatement(const TaskGraph& graph);
 [[nodiscard]] StepReport stepReport(const TaskGraph& graph, StepId step, const CaptureCounts& counts);
 /// The task a step is about; empty for steps that are looked at only.
 [[nodiscard]] std::string taskOfStep(const TaskGraph& graph, StepId step);

@@ -172,7 +172,8 @@ std::vector<std::string> TaskGraph::changes(const StoredResult& result) const {
   then.options = one == nullptr ? now.options : one->options_of(then.options);
   std::vector<std::string> changed;
   for (const auto& [name, value] : now.inputs.items()) {
-    const nlohmann::json before = then.inputs.value(name, nlohmann::json());
+    // What an earlier version did not know of counts as not there.
+    const nlohmann::json before = then.inputs.value(name, value == "" ? value : nlohmann::json());
     if (before != value) changed.push_back(described(name, before, value));
   }
   for (const nlohmann::json& differing : {now.options, then.options})
@@ -198,7 +199,7 @@ std::string TaskGraph::blockedBecause(const std::string& task) const {
   const TaskKind* one = kind(task);
   if (one == nullptr) return {};
   std::string why = one->blocked == nullptr ? std::string() : one->blocked(*this);
-  if (why.empty() && one->of_observations && !hasObservations()) why = "Evaluate the captures first (Calibrate).";
+  if (why.empty() && one->of_observations && !hasObservations()) why = nothing_evaluated;
   return why;
 }
 

@@ -8,7 +8,8 @@
 //                          +--- thermal --- log-compensation +--- report
 //                          +--- discrepancy                 |
 //                          +--- verify ---------------------+
-//                          +--- check-jogs, check-repeatability, simulation (a search that runs a simulator)
+//                          +--- check-warm-up, check-jogs, check-repeatability
+//                          +--- simulation (a search that runs a simulator)
 //
 // A result is current if every input is what it was when the work on it started, and every result that it was made from
 // is current itself. An input of another result is that result's own fingerprint: evaluating again with nothing changed
@@ -71,6 +72,8 @@ struct TaskKind {
 };
 /// All tasks that there are, each after those it is made from; those of one id follow each other.
 [[nodiscard]] std::span<const TaskKind> taskKinds() noexcept;
+/// Why there are no observations to work on.
+inline constexpr std::string_view nothing_evaluated = "Evaluate the captures first (Calibrate).";
 /// The first of this id. Null: there is no such task.
 [[nodiscard]] const TaskKind* taskKind(std::string_view id) noexcept;
 /// The one for this campaign. Throws InputError: there is no such task.

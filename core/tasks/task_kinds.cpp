@@ -205,6 +205,26 @@ struct InstrumentCheck {
   static nlohmann::json payload(const CheckResult& result) { return result.json; }
 };
 
+struct CheckWarmUp {
+  static WarmUpCheckOptions options(const TaskGraph& /*graph*/) { return {}; }
+  static Work<CheckResult> work(WarmUpCheckOptions options, const TaskGraph& graph, const TaskInputs& in) {
+    return [campaign = in.campaign, observations = in.observations, options,
+            offsets = clockOffsetsOf(graph.session(), graph.campaign())](JobContext&, TaskOutput) {
+      const std::optional<ObservationSet> own = warmUpMeasurement(*campaign, offsets);
+      if (!own && observations == nullptr) throw InputError(std::string(nothing_evaluated));
+      WarmUpOptions limits;
+      limits.drift_limit_um_per_h = options.drift_limit_um_per_h;
+      return checkResultOf(
+          judgeWarmUp(own ? *own : *observations, {}, limits, campaign->log ? &*campaign->log : nullptr));
+    };
+  }
+  static nlohmann::json payload(const CheckResult& result) { return result.json; }
+  static std::string blocked(const TaskGraph& graph) {
+    return std::string(graph.facts().warm_up || graph.hasObservations() ? "" : nothing_evaluated);
+  }
+  static TaskIds madeFrom(const TaskGraph& graph) { return graph.facts().warm_up ? TaskIds() : fromCaptures(graph); }
+};
+
 struct FitCycles {
   static ModelOptions<CycleChoice> options(const TaskGraph& graph) { return {"cycles", chosenFor<CycleChoice>(graph)}; }
   static Work<TouchEvaluation> work(const ModelOptions<CycleChoice>& options, const TaskGraph& /*graph*/,
@@ -274,6 +294,7 @@ struct FitNineParameters {
             {"state", fit.state},
             {"status", std::string(toString(fit.status))},
             {"message", fit.message},
+            {"rejected", fit.rejected()},
             {"parameter_order", full.at("parameter_order")},
             {"covariance", full.at("covariance")},
             {"higher_order", result.order.json()}};
@@ -474,6 +495,13 @@ constexpr std::array kinds{
                         .blocked = withoutCaptures}),
     declared<Evaluate>(
         {.id = "evaluate", .title = "Evaluating the scans", .belongs = ofCaptures, .blocked = withoutCaptures}),
+    declared<CheckWarmUp>({.id = "check-warm-up",
+                           .title = "Checking whether the instrument had settled",
+                           .result = "the check of the warm-up",
+                           .told = true,
+                           .belongs = moreThanALog,
+                           .blocked = CheckWarmUp::blocked,
+                           .made_from = CheckWarmUp::madeFrom}),
     declared<InstrumentCheck<checkJogs, 1000>>({.id = "check-jogs",
                                                 .title = "Checking the jogs",
                                                 .result = "the check of the jogs",

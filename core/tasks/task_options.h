@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "core/imaging/warm_up.h"
 #include "core/machine/campaign.h"
 #include "core/machine/nine_parameter_model.h"
 #include "core/probing/hole_cycle.h"
@@ -218,6 +219,16 @@ struct AxisErrorOptions {
   static void fields(Options& o, const Visitor& visit) {
     visit("model", o.model);
     visit("scan_model", o.scan_model);
+  }
+};
+
+/// Of the check whether the instrument had settled.
+struct WarmUpCheckOptions {
+  double drift_limit_um_per_h = WarmUpOptions().drift_limit_um_per_h;
+
+  template <class Options, class Visitor>
+  static void fields(Options& o, const Visitor& visit) {
+    visit("drift_limit_um_per_h", o.drift_limit_um_per_h);
   }
 };
 

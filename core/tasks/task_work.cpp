@@ -48,8 +48,7 @@ DiscrepancyRun SimulationTask::putInto(const std::filesystem::path& folder, cons
 
 TaskWork prepareTask(const std::string& task, const TaskGraph& graph, const TaskInputs& inputs) {
   const TaskKind& kind = taskKind(task, graph.facts());
-  if (kind.of_observations && inputs.observations == nullptr)
-    throw InputError("Evaluate the captures first (Calibrate).");
+  if (kind.of_observations && inputs.observations == nullptr) throw InputError(std::string(nothing_evaluated));
   return kind.prepare(graph, inputs);
 }
 

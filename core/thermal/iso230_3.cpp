@@ -188,7 +188,7 @@ std::vector<std::string> requireMachineAtRest(const TimeSeries& series) {
     }
   }
   if (!speed_known)
-    notes.emplace_back("the log has no spindle speed: that the machine was at rest could not be checked.");
+    notes.emplace_back("The log has no spindle speed: that the machine was at rest could not be checked.");
   return notes;
 }
 

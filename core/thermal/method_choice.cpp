@@ -139,7 +139,7 @@ MethodChoiceResult chooseMethod(const TimeSeries& series, const std::string& out
     result.verdicts = std::move(response.verdicts);
     result.left_out_rms = response.left_out_rms;
     result.methods = {{"response", response.left_out_rms, 1.0}};
-    result.notes.push_back("too few samples for a choice between methods: response.");
+    result.notes.push_back("Too few samples for a choice between methods: response.");
     result.status = FitStatus::Converged;
     return result;
   }

@@ -185,7 +185,7 @@ TimeSeries seriesOf(CsvRows& rows, const TimeSeriesOptions& options) {
     signal.name = column.name;
     const bool other = signalKind(signal.name, {}) == SignalKind::Other && !saysMissing(column.words);
     if (column.words_at && (column.numbers == 0 || (other && column.values.empty())) && !saysMissing(column.words)) {
-      series.notes.push_back(fmt::format("column {} holds text and was left out.", signal.name));
+      series.notes.push_back(fmt::format("Column {} holds text and was left out.", signal.name));
       continue;
     }
     // Words among the numbers of a column that means nothing to us (alarms) are values that are not known.
@@ -196,7 +196,7 @@ TimeSeries seriesOf(CsvRows& rows, const TimeSeriesOptions& options) {
                       saysMissing(column.words) ? ", or an empty field where the value is missing" : ""));
     }
     if (column.numbers == 0) {
-      series.notes.push_back(fmt::format("column {} is empty and was left out.", signal.name));
+      series.notes.push_back(fmt::format("Column {} is empty and was left out.", signal.name));
       continue;
     }
     if (const std::size_t missing = column.missing + column.word_count; missing > 0)

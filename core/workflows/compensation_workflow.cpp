@@ -87,7 +87,7 @@ struct PreparedModel {
 void noteLack(CompensationPlan& plan) {
   if (!(plan.lack_of_fit_um.maxCoeff() > 0.0)) return;
   plan.warnings.push_back(fmt::format(
-      "what the model does not describe (X {:.2g} µm, Y {:.2g} µm, Z {:.2g} µm) is part of the uncertainty of "
+      "What the model does not describe (X {:.2g} µm, Y {:.2g} µm, Z {:.2g} µm) is part of the uncertainty of "
       "every correction.",
       plan.lack_of_fit_um.x(), plan.lack_of_fit_um.y(), plan.lack_of_fit_um.z()));
 }
@@ -150,7 +150,7 @@ PreparedModel prepareNineParameters(const ObservationSet& observations, const Co
   std::shared_ptr<const ErrorModel> model;
   TableOrders orders{1, 1, 1};
   if (request.source == CompensationSource::HigherOrder) {
-    if (!choice.richer()) plan.warnings.push_back("a model of higher order is not supported: " + choice.reason);
+    if (!choice.richer()) plan.warnings.push_back("A model of higher order is not supported. " + choice.reason);
     orders = choice.orders;
     model = choice.model;
     plan.lack_of_fit_um.setConstant(choice.lack_of_fit_um);
@@ -162,7 +162,7 @@ PreparedModel prepareNineParameters(const ObservationSet& observations, const Co
     if (choice.richer()) plan.richer_model = choice.reason;
   }
   noteLack(plan);
-  if (!plan.richer_model.empty()) plan.warnings.push_back("a richer model fits better: " + plan.richer_model);
+  if (!plan.richer_model.empty()) plan.warnings.push_back("A richer model fits better. " + plan.richer_model);
   addUnseen(fit, *model, orders, plan);
   PreparedModel out{model, {}};
   out.conditions.state = fit.state;
@@ -360,7 +360,7 @@ void makeFiles(const MachineDescription& machine, const PreparedModel& prepared,
              measured)});
     if (!measured.extendsAlong(axis[0] - 'X')) {
       plan.warnings.push_back(
-          fmt::format("nothing was measured along {}: no component error of that axis is stated, and there is no screw "
+          fmt::format("Nothing was measured along {}: no component error of that axis is stated, and there is no screw "
                       "compensation for it.",
                       axis));
       continue;

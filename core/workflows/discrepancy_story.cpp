@@ -340,6 +340,14 @@ double DiscrepancyStory::largestRms(bool rotations) const {
   return largest;
 }
 
+std::array<GapFigures, 2> DiscrepancyStory::movements() const {
+  const std::vector<DiscrepancyReportRow> rows = reportData().rows;
+  std::array<GapFigures, 2> figures{gapFigures(rows, false), gapFigures(rows, true)};
+  if (added.empty())
+    for (GapFigures& f : figures) f.p2p_after = f.fit_after_percent = std::nan("");
+  return figures;
+}
+
 DiscrepancyReportData DiscrepancyStory::reportData() const {
   DiscrepancyReportData data;
   data.verdict = verdict;

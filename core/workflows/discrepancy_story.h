@@ -11,6 +11,7 @@
 // move.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -89,6 +90,8 @@ struct DiscrepancyStory {
 
   /// For a report: "after" is with the effects added, or with those proposed while none is.
   [[nodiscard]] DiscrepancyReportData reportData() const;
+  /// How far the fitted rows move, and those held out; NaN after while nothing has been added.
+  [[nodiscard]] std::array<GapFigures, 2> movements() const;
 
   [[nodiscard]] nlohmann::json json() const;
   /// Reads what `json` wrote. Throws InputError if it is something else.

@@ -3,13 +3,20 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <limits>
+#include <vector>
 
 #include "core/base/error.h"
 #include "core/base/json_reader.h"
 #include "core/base/text.h"
 
 namespace spindrift {
+namespace {
+
+constexpr auto of_instrument = "instrument";
+
+}  // namespace
 
 CheckResult checkResultOf(const ResolutionCheck& check) {
   CheckResult result;
@@ -39,9 +46,15 @@ std::string warmUpNotChecked() {
   return "Not checked: a drift of the instrument would appear in every deviation as a motion of the machine.";
 }
 
-CheckResult checkWarmUp(const ObservationSet& observations, const std::string& point, const WarmUpOptions& options,
-                        const OperatingLog* log) {
-  const WarmUpResult warm_up = judgeWarmUp(observations, point, options, log);
+std::optional<ObservationSet> warmUpMeasurement(const Campaign& campaign, const ClockOffsets& offsets) {
+  const std::filesystem::path file = campaign.path(warm_up_file);
+  if (!std::filesystem::exists(file)) return {};
+  ObservationSet set = ObservationSet::read(file);
+  applyClockOffsets(set, offsets);
+  return set;
+}
+
+CheckResult checkResultOf(const WarmUpResult& warm_up) {
   CheckResult result;
   result.passed = warm_up.settled;
   nlohmann::json axes = nlohmann::json::array();
@@ -55,7 +68,9 @@ CheckResult checkWarmUp(const ObservationSet& observations, const std::string& p
                     {"tau_s", jsonNumber(axis.tau_s)},
                     {"amplitude_um", jsonNumber(axis.amplitude_um)},
                     {"settled_after_s", jsonNumber(axis.settled_after_s)},
-                    {"settled", axis.settled}});
+                    {"settled", axis.settled},
+                    {"time_s", axis.time_s},
+                    {"value_um", axis.value_um}});
     result.summary += fmt::format("{}  drift {}{}: {}\n", toString(axis.component),
                                   withUncertainty(axis.drift_um_per_h, axis.drift_sigma_um_per_h, "um/h"),
                                   axis.tau_s ? fmt::format(", time constant {:.0f} min", *axis.tau_s / 60.0) : "",
@@ -65,15 +80,52 @@ CheckResult checkWarmUp(const ObservationSet& observations, const std::string& p
   if (!warm_up.cause_reason.empty()) result.summary += warm_up.cause_reason + "\n";
   result.json = {{"point", warm_up.point},
                  {"cause", warm_up.settled                            ? nlohmann::json()
-                           : warm_up.cause == WarmUpCause::Instrument ? nlohmann::json("instrument")
+                           : warm_up.cause == WarmUpCause::Instrument ? nlohmann::json(of_instrument)
                                                                       : nlohmann::json("unknown")},
                  {"cause_reason", warm_up.cause_reason},
                  {"settled", warm_up.settled},
                  {"reason", warm_up.reason},
                  {"status", toString(warm_up.status)},
-                 {"drift_limit_um_per_h", options.drift_limit_um_per_h},
+                 {"drift_limit_um_per_h", warm_up.drift_limit_um_per_h},
                  {"axes", axes}};
   return result;
+}
+
+WarmUpResult warmUpFrom(const nlohmann::json& json) try {
+  WarmUpResult result;
+  const bool judged = json.at("status").get<std::string>() == toString(FitStatus::Converged);
+  result.status = judged ? FitStatus::Converged : FitStatus::Degenerate;
+  result.drift_limit_um_per_h = json.value("drift_limit_um_per_h", 0.0);
+  result.point = json.value("point", std::string());
+  result.settled = json.at("settled").get<bool>();
+  result.reason = json.at("reason").get<std::string>();
+  const nlohmann::json cause = json.value("cause", nlohmann::json());
+  result.cause =
+      cause.is_string() && cause.get<std::string>() == of_instrument ? WarmUpCause::Instrument : WarmUpCause::Unknown;
+  result.cause_reason = json.value("cause_reason", std::string());
+  const auto optional = [](const nlohmann::json& value) {
+    return value.is_number() ? std::optional(value.get<double>()) : std::nullopt;
+  };
+  for (const nlohmann::json& entry : json.value("axes", nlohmann::json::array())) {
+    WarmUpAxis axis;
+    axis.measured = true;
+    axis.component = componentFromString(entry.at("component").get<std::string>()).value_or(Component::EX);
+    constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+    axis.drift_um_per_h = optional(entry.at("drift_um_per_h").at("value")).value_or(unknown);
+    axis.drift_sigma_um_per_h = optional(entry.at("drift_um_per_h").at("standard_uncertainty")).value_or(unknown);
+    axis.total_um = optional(entry.at("total_um")).value_or(unknown);
+    axis.tau_s = optional(entry.at("tau_s"));
+    axis.amplitude_um = optional(entry.at("amplitude_um"));
+    axis.settled_after_s = optional(entry.at("settled_after_s"));
+    axis.settled = entry.at("settled").get<bool>();
+    axis.time_s = entry.at("time_s").get<std::vector<double>>();
+    axis.value_um = entry.at("value_um").get<std::vector<double>>();
+    for (std::size_t k = 0; k < result.axes.size(); ++k)
+      if (all_components[k] == axis.component) result.axes[k] = axis;
+  }
+  return result;
+} catch (const nlohmann::json::exception& e) {
+  throw InputError(fmt::format("the stored check cannot be read ({}); check again.", e.what()));
 }
 
 CheckResult checkJogs(const ObservationSet& observations, const MachineDescription& machine) {

@@ -3,10 +3,13 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 
 #include "core/imaging/jog_validation.h"
 #include "core/imaging/warm_up.h"
+#include "core/machine/campaign.h"
+#include "core/workflows/clock_offsets.h"
 
 namespace spindrift {
 
@@ -19,9 +22,15 @@ struct CheckResult {
   bool passed = false;
 };
 
-/// `log` may be null: then nobody can tell a drift of the instrument from the machine's own.
-[[nodiscard]] CheckResult checkWarmUp(const ObservationSet& observations, const std::string& point,
-                                      const WarmUpOptions& options, const OperatingLog* log);
+/// The file of a campaign that holds a measurement made for the warm-up alone: one point again and again, columns as in
+/// observations.csv.
+inline constexpr auto warm_up_file = "warm_up.csv";
+/// What is in it, on the clock of the campaign; nothing: there is no such file. Throws InputError.
+[[nodiscard]] std::optional<ObservationSet> warmUpMeasurement(const Campaign& campaign, const ClockOffsets& offsets);
+/// As judgeWarmUp tells it: drift per axis in um/h, and the series it was seen in (s, um).
+[[nodiscard]] CheckResult checkResultOf(const WarmUpResult& warm_up);
+/// Back from its JSON. Throws InputError: it is something else.
+[[nodiscard]] WarmUpResult warmUpFrom(const nlohmann::json& json);
 /// Limit: one resolution of the axis.
 [[nodiscard]] CheckResult checkJogs(const ObservationSet& observations, const MachineDescription& machine);
 /// Limit: half a resolution of the axis.

@@ -35,6 +35,8 @@ void addEffects(Report& report) {
       "show "
       "the shape for a gain of one in the middle planes of a working volume of 500 mm x 500 mm x 400 mm: grey as "
       "commanded, coloured as displaced, magnified so that the largest displacement is a tenth of the volume.");
+  EffectVolume one_point;
+  one_point.points.push_back({"<point>", "", {250.0, 250.0, 200.0}});
   for (const Effect& effect : everyEffect()) {
     report.subsection(ReportText(titleOf(effect)) + ReportText::smallPrint("  " + effect.id));
     report.paragraph(effect.physics);
@@ -45,8 +47,9 @@ void addEffects(Report& report) {
     if (!effect.contains.empty()) facts.emplace_back("Nested models", joinedList(effect.contains));
     if (!effect.references.empty()) facts.emplace_back("References", joinedList(effect.references));
     report.facts(facts);
-    if (std::optional<Drawing> drawing = effectDrawing(effect))
-      report.figure(std::move(*drawing), "shape of " + effect.id);
+    std::optional<EffectShape> shape = effectShape(effect, {});
+    if (!shape) shape = effectShape(effect, one_point);  // one that moves nothing else
+    if (shape) report.figure(effectDrawing(*shape), "shape of " + effect.id);
   }
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "core/workflows/fit_campaign.h"
 
@@ -56,6 +57,25 @@ DisplacementMaps mapsOf(const NineParameterComparison& compared, const FieldGrid
 }
 
 }  // namespace
+
+std::vector<PointChange> pointChanges(const ObservationSet& observations, const std::string& state) {
+  const StateDifferences change = differencesFromReference(observations, state);
+  const Eigen::Vector3d none = Eigen::Vector3d::Constant(std::nan(""));
+  std::map<std::string, PointChange> found;
+  for (std::size_t k = 0; k < change.rows.size(); ++k) {
+    const Observation& row = observations.rows[change.rows[k]];
+    PointChange& point =
+        found.try_emplace(row.point, PointChange{row.point, row.position_mm, none, none}).first->second;
+    const auto component = static_cast<Eigen::Index>(row.component);
+    if (component > 2) continue;
+    point.value_um[component] = change.value_um(static_cast<Eigen::Index>(k));
+    point.sigma_um[component] = change.sigma_um(k);
+  }
+  std::vector<PointChange> points;
+  for (const std::string& name : observations.points())
+    if (const auto at = found.find(name); at != found.end()) points.push_back(at->second);
+  return points;
+}
 
 std::optional<NineParameterMaps> nineParameterMaps(const MachineDescription& machine, const NineParameterFit& fit,
                                                    const TableOrderChoice& order,

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "core/machine/field.h"
@@ -29,6 +30,15 @@ struct NineParameterMaps {
   /// Second set minus first; a marker whose sigma is not finite has no value.
   std::optional<DisplacementMaps> difference;
 };
+
+/// A measured point against the reference state, EX, EY, EZ in um; NaN: not measured.
+struct PointChange {
+  std::string point;
+  Eigen::Vector3d position_mm = Eigen::Vector3d::Zero();
+  Eigen::Vector3d value_um, sigma_um;
+};
+/// In the order of the set. Throws InputError as differencesFromReference.
+[[nodiscard]] std::vector<PointChange> pointChanges(const ObservationSet& observations, const std::string& state);
 
 /// Nothing without residuals, or where the machine has no X or no Y axis.
 [[nodiscard]] std::optional<NineParameterMaps> nineParameterMaps(

@@ -54,6 +54,32 @@ std::vector<T> spread(const std::vector<T>& items, std::size_t most) {
   return out;
 }
 
+/// Pictures on a sheet; what has none is named in one sentence. `files` in the order of the thumbnails.
+void addSheet(Report& document, const std::vector<Thumbnail>& thumbnails, const std::vector<std::string>& files,
+              const std::string& caption) {
+  std::vector<Thumbnail> there;
+  std::vector<std::string> gone;
+  for (std::size_t i = 0; i < thumbnails.size(); ++i) {
+    if (thumbnails[i].jpeg.empty()) {
+      gone.push_back(files[i]);
+    } else {
+      there.push_back(thumbnails[i]);
+    }
+  }
+  if (!there.empty()) document.figure(contactSheet(there), caption);
+  if (gone.empty()) return;
+  constexpr std::size_t most_named = 3;
+  const std::size_t count = gone.size();
+  if (count > most_named) {
+    gone.resize(most_named);
+    gone.push_back(fmt::format("{} more", count - most_named));
+  }
+  const char* verb = count == 1 ? "is" : "are";
+  document.callout(CalloutKind::Attention,
+                   fmt::format("{} of {} {} left out: {} {} missing or cannot be read.", count,
+                               countOf(thumbnails.size(), "picture"), verb, joinedList(gone), verb));
+}
+
 /// What an image was taken for.
 std::string roleTitle(const std::string& role) {
   if (role == "x_axis") return "along X";
@@ -86,15 +112,17 @@ void addImages(Report& document, const Campaign& campaign, const std::filesystem
   }
   document.table({"State", "Fiducials", "Images", "Taken out", "Time / h"}, rows, "Images of fiducials");
   std::vector<Thumbnail> thumbnails;
+  std::vector<std::string> files;
   for (const FiducialCapture& c : spread(first, most_thumbnails)) {
+    files.push_back(c.image);
     job.throwIfCancelled();
     thumbnails.push_back({imageThumbnail(campaign.path(c.image)), fmt::format("{} {}", c.state, c.fiducial),
                           std::filesystem::path(c.image).filename().string()});
   }
-  document.figure(contactSheet(thumbnails),
-                  first.size() > thumbnails.size()
-                      ? fmt::format("The first image of {} of {} fiducials and states", thumbnails.size(), first.size())
-                      : std::string("The first image of every fiducial and state"));
+  addSheet(document, thumbnails, files,
+           first.size() > thumbnails.size()
+               ? fmt::format("The first image of {} of {} fiducials and states", thumbnails.size(), first.size())
+               : std::string("The first image of every fiducial and state"));
 }
 
 /// Range of a count: "60" or "58 to 60".
@@ -154,6 +182,7 @@ void addScans(Report& document, const Campaign& campaign, const JobContext& job)
     if (counts[s.artefact]++ == 0) first.push_back(s);
   std::vector<ReportRow> rows;
   std::vector<Thumbnail> thumbnails;
+  std::vector<std::string> files;
   for (const ScanCapture& s : first)
     rows.push_back({s.artefact, fmt::format("{:g}", s.y_mm), std::to_string(counts[s.artefact])});
   document.table({"Artefact", "Position / mm", "Scans"}, rows, "Scans");
@@ -161,28 +190,30 @@ void addScans(Report& document, const Campaign& campaign, const JobContext& job)
   for (const ScanCapture& s : spread(first, 12)) {
     job.throwIfCancelled();
     Thumbnail t{{}, s.artefact + " " + s.cycle, {}};
+    files.push_back(s.cloud);
     try {
       const ScanPicture picture = pictureOfScan(campaign, s.cloud, {}, ScanColouring::Height,
                                                 scanModelFromString(model), job, ScanPart::AsUsed);
       t.jpeg = cloudThumbnail(*picture.xyz_mm, *picture.scalar, picture.low, picture.high);
       t.comment = fmt::format("z {:.2f} to {:.2f} mm", picture.low, picture.high);
-    } catch (const InputError& error) {
-      t.comment = error.what();
+    } catch (const InputError&) {
+      t.jpeg.clear();
     }
     thumbnails.push_back(std::move(t));
   }
-  document.figure(contactSheet(thumbnails), "The first scan of every artefact from above, coloured by height");
+  addSheet(document, thumbnails, files, "The first scan of every artefact from above, coloured by height");
 }
 
 void addCheck(std::vector<ReportRow>& rows, const char* name, const nlohmann::json& check, const StoredResults& stored,
               const char* kind) {
   if (!check.is_object()) return;
   const bool passed = check.value("passed", check.value("settled", false));
+  const bool decided = check.value("status", std::string("converged")) == toString(FitStatus::Converged);
   std::string reason = textOf(check, "reason");
   if (reason.empty() && textOf(check, "by") == "operator") reason = "stated by the operator, not measured";
   if (const auto changed = stored.changed.find(kind); changed != stored.changed.end())
     reason = fmt::format("outdated, changed since: {}. {}", changed->second, reason);
-  rows.push_back({name, passed ? "passed" : "not passed", reason});
+  rows.push_back({name, passed ? "passed" : decided ? "not passed" : "not decided", reason});
 }
 
 /// What a model over time predicts; empty where the result does not say it.
@@ -279,13 +310,19 @@ void addOutdated(Report& document, const StoredResults& stored, const std::strin
 
 void addInstrumentState(Report& document, const StoredResults& stored, bool has_observations) {
   std::vector<ReportRow> rows;
-  addCheck(rows, "Warm-up", stored.warm_up, stored, "warm-up");
+  addCheck(rows, "Warm-up, measured", stored.warm_up, stored, "check-warm-up");
+  addCheck(rows, "Warm-up, stated", stored.warm_statement, stored, "");
   addCheck(rows, "Jogs", stored.jogs, stored, "check-jogs");
   addCheck(rows, "Cold repeatability", stored.repeatability, stored, "check-repeatability");
-  const bool unchecked = has_observations && !stored.warm_up.is_object();
+  const bool judged = stored.warm_up.is_object() && textOf(stored.warm_up, "status") == toString(FitStatus::Converged);
+  const bool unchecked = has_observations && !judged && !stored.warm_statement.is_object();
   if (rows.empty() && !unchecked) return;
   document.section("State of the instrument");
   if (unchecked) document.callout(CalloutKind::Attention, "Warm-up: " + warmUpNotChecked());
+  if (judged && !stored.warm_up.value("settled", false)) {
+    if (const std::string cause = textOf(stored.warm_up, "cause_reason"); !cause.empty())
+      document.callout(CalloutKind::Attention, "Warm-up: " + cause);
+  }
   if (!rows.empty()) document.table({"Check", "Verdict", "Reason"}, rows);
 }
 

@@ -19,12 +19,13 @@ namespace spindrift {
 /// Results that a session keeps of a campaign, as their workflows wrote them; null where there is none. A command
 /// without a session leaves them null.
 struct StoredResults {
-  nlohmann::json plan;           ///< MeasurementPlan::json
-  nlohmann::json warm_up;        ///< CheckResult::json, or {"settled":true,"by":"operator"}
-  nlohmann::json jogs;           ///< {"passed","reason"}
-  nlohmann::json repeatability;  ///< {"passed","reason"}
-  nlohmann::json thermal;        ///< IdentifyResult::json
-  nlohmann::json compensation;   ///< CompensationPlan::json
+  nlohmann::json plan;            ///< MeasurementPlan::json
+  nlohmann::json warm_up;         ///< CheckResult::json
+  nlohmann::json warm_statement;  ///< {"settled":true,"by":"operator"}
+  nlohmann::json jogs;            ///< {"passed","reason"}
+  nlohmann::json repeatability;   ///< {"passed","reason"}
+  nlohmann::json thermal;         ///< IdentifyResult::json
+  nlohmann::json compensation;    ///< CompensationPlan::json
   /// CompensateResult::json: the control's compensator run over the log.
   nlohmann::json log_compensation;
   nlohmann::json verification;  ///< VerifyResult::json
@@ -44,7 +45,8 @@ void addPlan(Report& document, const nlohmann::json& plan, const Campaign& campa
 /// artefact's first scan seen from above; 24 pictures at most, spread over the states. Nothing without captures.
 void addCaptures(Report& document, const Campaign& campaign, const JobContext& job);
 
-/// Warm-up, jogs, cold repeatability; where there are observations it is said if the warm-up was not checked.
+/// Warm-up, jogs, cold repeatability; where there are observations it is said what it means if nobody knows whether the
+/// instrument was warm.
 void addInstrumentState(Report& document, const StoredResults& stored, bool has_observations);
 
 /// The model over time: inputs, quality in free run, time constants. Nothing without a model.

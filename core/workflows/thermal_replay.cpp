@@ -110,7 +110,7 @@ AdaptiveError errorOf(const Prepared& data, const ReplayRequest& request, const 
   error.trigger_sigma = 0.5 * error.action_limit;
   if (error.action_limit < 3.0 * error.measurement_sigma) {
     notes.push_back(
-        fmt::format("the limit of {} is below three measuring uncertainties ({:.3g}): noise alone will "
+        fmt::format("The limit of {} is below three measuring uncertainties ({:.3g}): noise alone will "
                     "exceed it.",
                     error.name, error.measurement_sigma));
   }

@@ -166,14 +166,14 @@ StructuredFit fitByArx(const TimeSeries& series, const IdentifyRequest& request,
   if (model.status != FitStatus::Converged) throw InputError({series.file, ""}, model.message);
   if (!model.stable()) {
     model = stabilised(model);
-    out.notes.push_back("the ARX fit was unstable: " + model.message);
+    out.notes.push_back("The ARX fit was unstable: " + model.message);
   }
   const double white = equationWhiteness(model, y, u);
   out.structure["equation_whiteness_p_value"] = white;
   out.structure["uncertainty_holds"] = white >= 1e-3;
   if (white < 1e-3) {
     out.notes.push_back(
-        "the residual of the ARX equation is not white (noise at the output, or missing dynamics): its coefficients "
+        "The residual of the ARX equation is not white (noise at the output, or missing dynamics): its coefficients "
         "are "
         "biased and their intervals do not hold; use --method oe or response.");
   }
@@ -235,7 +235,7 @@ StructuredFit fitByOutputError(const TimeSeries& series, const IdentifyRequest& 
   const OutputErrorResult fit = fitOutputError(part(b.all.time_s), part(b.y), u);
   if (fit.gains.empty()) throw InputError({series.file, ""}, fit.message);
   if (fit.status != FitStatus::Converged) {
-    out.notes.push_back(fmt::format("output error: {} ({})", toString(fit.status), fit.message));
+    out.notes.push_back(fmt::format("Output error: {} ({})", toString(fit.status), fit.message));
   } else if (!fit.message.empty()) {
     out.notes.push_back(fit.message);
   }

@@ -143,7 +143,7 @@ Iso230Result evaluateIso230Test(const TimeSeries& whole, const Iso230Request& re
       }
     }
     if (ambient.empty())
-      result.notes.push_back("no ambient temperature was named (--ambient): nothing is given per K.");
+      result.notes.push_back("No ambient temperature was named (--ambient): nothing is given per K.");
     result.etve =
         evaluateEtve(series.time_s, components,
                      ambient.empty() ? std::span<const double>{} : std::span<const double>(series.at(ambient).values),

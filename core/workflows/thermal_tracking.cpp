@@ -133,7 +133,7 @@ TrackResult trackThermalModel(const TimeSeries& all, const ThermalModel& model, 
                                 {1800.0, 3600.0, 5400.0, 7200.0, 9000.0, 10800.0});
   if (request.update == UpdateKind::Gain && result.with.p2p > result.without.p2p) {
     result.notes.push_back(
-        "the gain update made the largest errors worse: the ratio measured / simulated is meaningless where the "
+        "The gain update made the largest errors worse: the ratio measured / simulated is meaningless where the "
         "simulation is near zero; use --update "
         "kalman, or bound the gain.");
   }
@@ -265,7 +265,7 @@ CompensateResult compensateLog(const TimeSeries& series, const ThermalModel& mod
   for (const ThermalOutput& output : model.outputs) {
     if (!output.verdict || output.verdict->good_enough) continue;
     result.warnings.push_back(
-        fmt::format("the model of {} was called not good enough when it was identified ({}); do not use this "
+        fmt::format("The model of {} was called not good enough when it was identified ({}); do not use this "
                     "compensation on a machine.",
                     output.name, output.verdict->reason));
   }

@@ -152,7 +152,7 @@ IdentifyResult identifyThermalModel(TimeSeries series, const IdentifyRequest& re
     }
   }
   if (request.test.from_s < request.train.to_s && request.train.from_s < request.test.to_s) {
-    result.notes.push_back("train and test overlap: the test figures are not evidence for new data.");
+    result.notes.push_back("Train and test overlap: the test figures are not evidence for new data.");
   }
   const std::vector<std::string> names =
       request.inputs.empty() ? automaticInputs(series, request.output) : request.inputs;

@@ -195,6 +195,26 @@ VerifyFigures verifyFigures(const std::vector<const VerifyPoint*>& points, bool 
   return f;
 }
 
+std::vector<VerifyPointFigures> verifyFiguresOfPoints(const VerifyResult& result, Component component) {
+  std::vector<VerifyPointFigures> figures;
+  std::vector<std::vector<const VerifyPoint*>> values;
+  for (const VerifyPoint& p : result.points) {
+    if (p.component != component) continue;
+    const auto found = std::find_if(figures.begin(), figures.end(), [&](const auto& f) { return f.point == p.point; });
+    if (found == figures.end()) {
+      figures.push_back({p.point, {}, {}});
+      values.push_back({&p});
+    } else {
+      values[static_cast<std::size_t>(found - figures.begin())].push_back(&p);
+    }
+  }
+  for (std::size_t i = 0; i < figures.size(); ++i) {
+    figures[i].before = verifyFigures(values[i], false);
+    figures[i].after = verifyFigures(values[i], true);
+  }
+  return figures;
+}
+
 std::string_view toString(VerifyVerdict verdict) noexcept {
   switch (verdict) {
     case VerifyVerdict::Met:
@@ -298,10 +318,10 @@ VerifyResult verifyCampaigns(const Campaign& before, const ObservationSet& befor
   ObservationSet second = after_observations;
   std::vector<std::string> notes;
   if (before.machine.name != after.machine.name) {
-    notes.push_back(fmt::format("the machines have different names: \"{}\" before, \"{}\" after.", before.machine.name,
+    notes.push_back(fmt::format("The machines have different names: \"{}\" before, \"{}\" after.", before.machine.name,
                                 after.machine.name));
   }
-  if (!left_out.empty()) notes.push_back("before: " + left_out);
+  if (!left_out.empty()) notes.push_back("Before: " + left_out);
   if (after.log && after.log->has(compensation_signal)) {
     std::size_t off = 0;
     std::size_t on = 0;
@@ -320,11 +340,11 @@ VerifyResult verifyCampaigns(const Campaign& before, const ObservationSet& befor
                        "was measured with the compensation on.");
     }
     if (off > 0)
-      notes.push_back(fmt::format("after: {} of {} {} taken without compensation and left out.", off,
+      notes.push_back(fmt::format("After: {} of {} {} taken without compensation and left out.", off,
                                   countOf(on + off, "observation"), off == 1 ? "was" : "were"));
   } else {
     notes.push_back(
-        "after: no column compensation_on in the log: nothing but the operator's word says that the control was "
+        "After: no column compensation_on in the log: nothing but the operator's word says that the control was "
         "compensating.");
   }
   VerifyResult result = verifyCompensation(first, second, request);

@@ -68,6 +68,10 @@ struct VerifyPoint {
 
 struct VerifyResult {
   VerifyRequest request;
+  /// In the unit of the component; 0: none.
+  [[nodiscard]] double goal(Component component) const {
+    return isRotation(component) ? request.goal_urad : request.goal_um;
+  }
   std::vector<VerifyComponent> components;
   std::vector<VerifyPoint> points;
   VerifyVerdict verdict = VerifyVerdict::Undecided;
@@ -77,6 +81,14 @@ struct VerifyResult {
   [[nodiscard]] nlohmann::json json() const;
   [[nodiscard]] std::string summary() const;
 };
+
+/// Of one component at a point, over the states.
+struct VerifyPointFigures {
+  std::string point;
+  VerifyFigures before, after;
+};
+/// Of every point, in the order of the result.
+[[nodiscard]] std::vector<VerifyPointFigures> verifyFiguresOfPoints(const VerifyResult& result, Component component);
 
 /// Observations marked `exclude` take no part. Rows may stand in any order.
 [[nodiscard]] VerifyResult verifyCompensation(const ObservationSet& before, const ObservationSet& after,

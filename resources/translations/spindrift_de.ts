@@ -1813,10 +1813,6 @@
         <translation>Die Maschine soll {:g} s laufen; zulässig: über 0.</translation>
     </message>
     <message>
-        <source>The machine stood and its temperatures held meanwhile: it is the instrument that drifts.</source>
-        <translation>Die Maschine stand, und ihre Temperaturen hielten sich inzwischen: es driftet das Messgerät.</translation>
-    </message>
-    <message>
         <source>The measuring instrument warms itself after it was switched on and drifts to its steady state; the machine has no part in it.</source>
         <translation>Das Messgerät erwärmt sich nach dem Einschalten und driftet in seinen Beharrungszustand; die Maschine ist daran nicht beteiligt.</translation>
     </message>
@@ -2603,8 +2599,8 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>ein Messzyklus gab {} von {} Antastungen und wird nicht verwendet{}</translation>
     </message>
     <message>
-        <source>a model of higher order is not supported: {}</source>
-        <translation>ein Modell höherer Ordnung wird nicht gestützt: {}</translation>
+        <source>A model of higher order is not supported. {}</source>
+        <translation>Ein Modell höherer Ordnung wird nicht gestützt. {}</translation>
     </message>
     <message>
         <source>a move before G0, G1 or G38</source>
@@ -2743,8 +2739,8 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>eine seitliche Eilgangbewegung liegt nicht über dem Prüfkörper</translation>
     </message>
     <message>
-        <source>a richer model fits better: {}</source>
-        <translation>ein reichhaltigeres Modell passt besser: {}</translation>
+        <source>A richer model fits better. {}</source>
+        <translation>Ein reichhaltigeres Modell passt besser. {}</translation>
     </message>
     <message>
         <source>a scale</source>
@@ -2887,12 +2883,12 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>zur Simulation hinzugefügt: {}</translation>
     </message>
     <message>
-        <source>after: no column compensation_on in the log: nothing but the operator&apos;s word says that the control was compensating.</source>
-        <translation>nachher: keine Spalte compensation_on im Protokoll: nur das Wort des Bedieners sagt, dass die Steuerung kompensierte.</translation>
+        <source>After: no column compensation_on in the log: nothing but the operator&apos;s word says that the control was compensating.</source>
+        <translation>Nachher: keine Spalte compensation_on im Protokoll: nur das Wort des Bedieners sagt, dass die Steuerung kompensierte.</translation>
     </message>
     <message>
-        <source>after: {} of {} {} taken without compensation and left out.</source>
-        <translation>nachher: {} von {} {} ohne Kompensation aufgenommen und ausgelassen.</translation>
+        <source>After: {} of {} {} taken without compensation and left out.</source>
+        <translation>Nachher: {} von {} {} ohne Kompensation aufgenommen und ausgelassen.</translation>
     </message>
     <message>
         <source>ahead of</source>
@@ -3219,8 +3215,8 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Batch-Auftrag {} „{}“ ({}): {} von {}</translation>
     </message>
     <message>
-        <source>before: {}</source>
-        <translation>vorher: {}</translation>
+        <source>Before: {}</source>
+        <translation>Vorher: {}</translation>
     </message>
     <message>
         <source>begins at</source>
@@ -3435,7 +3431,7 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Spalte {}</translation>
     </message>
     <message>
-        <source>column {} holds text and was left out.</source>
+        <source>Column {} holds text and was left out.</source>
         <translation>Spalte {} enthält Text und wurde ausgelassen.</translation>
     </message>
     <message>
@@ -3443,7 +3439,7 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Spalte {} ist auch in {}; zulässig: jedes Signal in nur einer Datei.</translation>
     </message>
     <message>
-        <source>column {} is empty and was left out.</source>
+        <source>Column {} is empty and was left out.</source>
         <translation>Spalte {} ist leer und wurde ausgelassen.</translation>
     </message>
     <message>
@@ -3547,7 +3543,7 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Richtung {} ist nicht zulässig; zulässig: -1, 0 oder +1.</translation>
     </message>
     <message>
-        <source>distance {} differs from the certificate by {:.2f} mm: are balls swapped or is this another artefact?</source>
+        <source>Distance {} differs from the certificate by {:.2f} mm: are balls swapped or is this another artefact?</source>
         <translation>Abstand {} weicht um {:.2f} mm vom Zertifikat ab: sind Kugeln vertauscht, oder ist dies ein anderer Prüfkörper?</translation>
     </message>
     <message>
@@ -4975,8 +4971,8 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>keine Adresse</translation>
     </message>
     <message>
-        <source>no ambient temperature was named (--ambient): nothing is given per K.</source>
-        <translation>es wurde keine Umgebungstemperatur angegeben (--ambient): nichts wird je K angegeben.</translation>
+        <source>No ambient temperature was named (--ambient): nothing is given per K.</source>
+        <translation>Es wurde keine Umgebungstemperatur angegeben (--ambient): nichts wird je K angegeben.</translation>
     </message>
     <message>
         <source>no answer within {:.0f} s</source>
@@ -4995,8 +4991,8 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>keine Konvergenz</translation>
     </message>
     <message>
-        <source>no displacement could be measured: see the rejected captures.</source>
-        <translation>es konnte keine Verschiebung gemessen werden: siehe die verworfenen Aufnahmen.</translation>
+        <source>No displacement could be measured: see the rejected captures.</source>
+        <translation>Es konnte keine Verschiebung gemessen werden: siehe die verworfenen Aufnahmen.</translation>
     </message>
     <message>
         <source>no displacement of state {} can be fitted; allowed: rows EX, EY or EZ with use fit{}.</source>
@@ -5027,16 +5023,16 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>keine Sensorfehler: die virtuelle Maschine erzeugt ihre Temperaturen selbst und liest keine aus log.csv</translation>
     </message>
     <message>
-        <source>no fiducial could be evaluated.</source>
-        <translation>es konnte keine Messmarke ausgewertet werden.</translation>
+        <source>No fiducial could be evaluated.</source>
+        <translation>Es konnte keine Messmarke ausgewertet werden.</translation>
     </message>
     <message>
-        <source>no fiducial has a {} in {}: its change is relative to {}.</source>
-        <translation>keine Messmarke hat {} in {}: die Änderung bezieht sich auf {}.</translation>
+        <source>No fiducial has a {} in {}: its change is relative to {}.</source>
+        <translation>Keine Messmarke hat {} in {}: die Änderung bezieht sich auf {}.</translation>
     </message>
     <message>
-        <source>no images along X or Y could be used: displacements in the plane cannot be turned into the machine&apos;s axes and are left out.</source>
-        <translation>es waren keine Bilder entlang X oder Y verwendbar: Verschiebungen in der Ebene lassen sich nicht in die Maschinenachsen umrechnen und entfallen.</translation>
+        <source>No images along X or Y could be used: displacements in the plane cannot be turned into the machine&apos;s axes and are left out.</source>
+        <translation>Es waren keine Bilder entlang X oder Y verwendbar: Verschiebungen in der Ebene lassen sich nicht in die Maschinenachsen umrechnen und entfallen.</translation>
     </message>
     <message>
         <source>no images along the machine&apos;s X or Y axis could be used</source>
@@ -5167,10 +5163,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>nicht beurteilt</translation>
     </message>
     <message>
-        <source>not known yet: the drift {} may still exceed {} µm/h; measure longer.</source>
-        <translation>noch nicht bekannt: die Drift {} kann noch {} µm/h überschreiten; länger messen.</translation>
-    </message>
-    <message>
         <source>not measured in this log,</source>
         <translation>in diesem Protokoll nicht gemessen,</translation>
     </message>
@@ -5189,10 +5181,6 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>not settled</source>
         <translation>nicht eingelaufen</translation>
-    </message>
-    <message>
-        <source>not settled: {} drifts faster than {} µm/h.</source>
-        <translation>nicht eingelaufen: {} driftet schneller als {} µm/h.</translation>
     </message>
     <message>
         <source>not started</source>
@@ -5235,16 +5223,16 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>von diesem Zustand gibt es keine Validierungsdaten: wie die Korrektur anderswo wirkt, ist nicht bekannt</translation>
     </message>
     <message>
-        <source>nothing was measured along {}: no component error of that axis is stated, and there is no screw compensation for it.</source>
-        <translation>entlang {} wurde nichts gemessen: keine Komponentenabweichung dieser Achse wird angegeben, und es gibt keine Spindelsteigungskompensation für sie.</translation>
+        <source>Nothing was measured along {}: no component error of that axis is stated, and there is no screw compensation for it.</source>
+        <translation>Entlang {} wurde nichts gemessen: keine Komponentenabweichung dieser Achse wird angegeben, und es gibt keine Spindelsteigungskompensation für sie.</translation>
     </message>
     <message>
         <source>nut {}</source>
         <translation>Mutter {}</translation>
     </message>
     <message>
-        <source>observed rotations are left out: the nine parameters are fitted to displacements.</source>
-        <translation>beobachtete Drehungen bleiben außer Betracht: die neun Parameter werden an Verschiebungen angepasst.</translation>
+        <source>Observed rotations are left out: the nine parameters are fitted to displacements.</source>
+        <translation>Beobachtete Drehungen bleiben außer Betracht: die neun Parameter werden an Verschiebungen angepasst.</translation>
     </message>
     <message>
         <source>of known radius</source>
@@ -5283,8 +5271,8 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>ein Zentrum je Zustand</translation>
     </message>
     <message>
-        <source>one cycle alone is the reference; thermal errors need a second one</source>
-        <translation>ein Zyklus allein ist die Referenz; thermische Abweichungen brauchen einen zweiten</translation>
+        <source>One cycle alone is the reference; thermal errors need a second one</source>
+        <translation>Ein Zyklus allein ist die Referenz; thermische Abweichungen brauchen einen zweiten</translation>
     </message>
     <message>
         <source>one direction</source>
@@ -5331,7 +5319,7 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Ausgang „{}</translation>
     </message>
     <message>
-        <source>output error: {} ({})</source>
+        <source>Output error: {} ({})</source>
         <translation>Ausgangsfehler: {} ({})</translation>
     </message>
     <message>
@@ -5393,10 +5381,6 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>point &quot;{}&quot; was not measured in state {}; allowed: {}.</source>
         <translation>Punkt „{}“ wurde in Zustand {} nicht gemessen; zulässig: {}.</translation>
-    </message>
-    <message>
-        <source>point {} was measured fewer than {} times: too few to see a drift.</source>
-        <translation>Punkt {} wurde weniger als {}-mal gemessen: zu selten, um eine Drift zu sehen.</translation>
     </message>
     <message>
         <source>points of kind &quot;fiducial&quot;</source>
@@ -5671,10 +5655,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Intervall wird gesetzt</translation>
     </message>
     <message>
-        <source>settled: the drift of every axis is below {} µm/h with its uncertainty.</source>
-        <translation>eingelaufen: die Drift jeder Achse liegt mit ihrer Unsicherheit unter {} µm/h.</translation>
-    </message>
-    <message>
         <source>sharpness and odds of the choice between methods must be positive.</source>
         <translation>Schärfe und Chancenverhältnis der Verfahrenswahl müssen positiv sein.</translation>
     </message>
@@ -5907,8 +5887,8 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>die auch im Referenzzustand gemessen wurden</translation>
     </message>
     <message>
-        <source>the ARX fit was unstable: {}</source>
-        <translation>die ARX-Anpassung war instabil: {}</translation>
+        <source>The ARX fit was unstable: {}</source>
+        <translation>Die ARX-Anpassung war instabil: {}</translation>
     </message>
     <message>
         <source>the JPEG quality must lie between 0 (none) and 100.</source>
@@ -5935,12 +5915,12 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>die Richtung der Kamera unterscheidet sich zwischen den Sätzen</translation>
     </message>
     <message>
-        <source>the centre of rotation cannot be found: {}.</source>
-        <translation>das Drehzentrum ist nicht bestimmbar: {}.</translation>
+        <source>The centre of rotation cannot be found: {}.</source>
+        <translation>Das Drehzentrum ist nicht bestimmbar: {}.</translation>
     </message>
     <message>
-        <source>the centre of rotation is not the same everywhere ({}): {} is used. The microscope has moved in the spindle or had not settled.</source>
-        <translation>das Drehzentrum ist nicht überall dasselbe ({}): verwendet wird {}. Das Mikroskop hat sich in der Spindel bewegt oder war nicht eingelaufen.</translation>
+        <source>The centre of rotation is not the same everywhere ({}): {} is used. The microscope has moved in the spindle or had not settled.</source>
+        <translation>Das Drehzentrum ist nicht überall dasselbe ({}): verwendet wird {}. Das Mikroskop hat sich in der Spindel bewegt oder war nicht eingelaufen.</translation>
     </message>
     <message>
         <source>the change from state {} to {}</source>
@@ -6019,8 +5999,8 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>die Anfahrrichtung fehlt oder ist null; zulässig: ein Einheitsvektor in {nx}, {ny}, {nz}.</translation>
     </message>
     <message>
-        <source>the direction of the camera differs between fiducials or states ({}): each fiducial is turned by its own axis images.</source>
-        <translation>die Richtung der Kamera unterscheidet sich zwischen Messmarken oder Zuständen ({}): jede Messmarke wird mit ihren eigenen Achsbildern gedreht.</translation>
+        <source>The direction of the camera differs between fiducials or states ({}): each fiducial is turned by its own axis images.</source>
+        <translation>Die Richtung der Kamera unterscheidet sich zwischen Messmarken oder Zuständen ({}): jede Messmarke wird mit ihren eigenen Achsbildern gedreht.</translation>
     </message>
     <message>
         <source>the duration is not above zero.</source>
@@ -6083,8 +6063,8 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>die Verstärkung unterscheidet sich: der Messtaster zeigt {:.0f} % dessen, was die Referenz zeigt</translation>
     </message>
     <message>
-        <source>the gain update made the largest errors worse: the ratio measured / simulated is meaningless where the simulation is near zero; use --update kalman, or bound the gain.</source>
-        <translation>die Verstärkungsnachführung verschlechterte die größten Abweichungen: das Verhältnis gemessen / simuliert ist sinnlos, wo die Simulation nahe null ist; --update kalman verwenden oder die Verstärkung begrenzen.</translation>
+        <source>The gain update made the largest errors worse: the ratio measured / simulated is meaningless where the simulation is near zero; use --update kalman, or bound the gain.</source>
+        <translation>Die Verstärkungsnachführung verschlechterte die größten Abweichungen: das Verhältnis gemessen / simuliert ist sinnlos, wo die Simulation nahe null ist; --update kalman verwenden oder die Verstärkung begrenzen.</translation>
     </message>
     <message>
         <source>the gains and time constants of one way in which the signals in log.csv drive {}</source>
@@ -6203,8 +6183,8 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>die größte Streuung innerhalb eines Merkmals muss positiv sein (µm).</translation>
     </message>
     <message>
-        <source>the limit of {} is below three measuring uncertainties ({:.3g}): noise alone will exceed it.</source>
-        <translation>die Grenze von {} liegt unter drei Messunsicherheiten ({:.3g}): schon das Rauschen wird sie überschreiten.</translation>
+        <source>The limit of {} is below three measuring uncertainties ({:.3g}): noise alone will exceed it.</source>
+        <translation>Die Grenze von {} liegt unter drei Messunsicherheiten ({:.3g}): schon das Rauschen wird sie überschreiten.</translation>
     </message>
     <message>
         <source>the line does not say artefact, feature and stylus; allowed: places in touch_line, or &quot;artefact&quot; and &quot;stylus&quot; in the template.</source>
@@ -6239,8 +6219,8 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>die Maschine</translation>
     </message>
     <message>
-        <source>the machine file gives no fixed bearing for {}; screw expansion is counted from 0 mm there, which shifts the spindle drift by the expansion times the distance to the real bearing.</source>
-        <translation>die Maschinendatei gibt kein Festlager für {} an; die Ausdehnung des Kugelgewindetriebs wird dort von 0 mm aus gezählt, was die Spindeldrift um Ausdehnung mal Abstand zum wahren Lager verschiebt.</translation>
+        <source>The machine file gives no fixed bearing for {}; screw expansion is counted from 0 mm there, which shifts the spindle drift by the expansion times the distance to the real bearing.</source>
+        <translation>Die Maschinendatei gibt kein Festlager für {} an; die Ausdehnung des Kugelgewindetriebs wird dort von 0 mm aus gezählt, was die Spindeldrift um Ausdehnung mal Abstand zum wahren Lager verschiebt.</translation>
     </message>
     <message>
         <source>the machine was homed anew: a measuring cycle has to look at its zero</source>
@@ -6249,10 +6229,6 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>the machine was homed anew: the compensation is off until a measuring cycle has looked at the zero</source>
         <translation>die Maschine wurde neu referenziert: die Kompensation ist aus, bis ein Messzyklus den Nullpunkt geprüft hat</translation>
-    </message>
-    <message>
-        <source>the machines have different names: &quot;{}&quot; before, &quot;{}&quot; after.</source>
-        <translation>die Maschinen haben verschiedene Namen: „{}“ vorher, „{}“ nachher.</translation>
     </message>
     <message>
         <source>the marks do not fix the place of the image: {}.</source>
@@ -6283,8 +6259,8 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>das Modell von {} wird nicht geschrieben: es hat keine Entsprechung in Zeitkonstanten erster Ordnung (komplexe, negative oder doppelte Pole), und an seiner Stelle liefe eine Konstante; das Verfahren response oder oe verwenden oder das Verfahren wählen lassen.</translation>
     </message>
     <message>
-        <source>the model of {} was called not good enough when it was identified ({}); do not use this compensation on a machine.</source>
-        <translation>das Modell von {} wurde bei der Identifikation als nicht gut genug beurteilt ({}); diese Kompensation nicht an einer Maschine verwenden.</translation>
+        <source>The model of {} was called not good enough when it was identified ({}); do not use this compensation on a machine.</source>
+        <translation>Das Modell von {} wurde bei der Identifikation als nicht gut genug beurteilt ({}); diese Kompensation nicht an einer Maschine verwenden.</translation>
     </message>
     <message>
         <source>the model over time</source>
@@ -6311,16 +6287,16 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>die neun Parameter</translation>
     </message>
     <message>
-        <source>the nine parameters alone are improbable ({:.2g}), but there are too few points to check a model of {} on points it was not fitted to.</source>
-        <translation>die neun Parameter allein sind unwahrscheinlich ({:.2g}), aber es gibt zu wenige Punkte, um ein Modell von {} an nicht angepassten Punkten zu prüfen.</translation>
+        <source>The nine parameters alone are improbable ({:.2g}), but there are too few points to check a model of {} on points it was not fitted to.</source>
+        <translation>Die neun Parameter allein sind unwahrscheinlich ({:.2g}), aber es gibt zu wenige Punkte, um ein Modell von {} an nicht angepassten Punkten zu prüfen.</translation>
     </message>
     <message>
-        <source>the nine parameters alone are improbable ({:.2g}), but {} does not predict points left out any better ({:.2f} µm against {:.2f} µm): single points are disturbed, or what is missing is of another kind.</source>
-        <translation>die neun Parameter allein sind unwahrscheinlich ({:.2g}), aber {} sagt ausgelassene Punkte nicht besser vorher ({:.2f} µm gegen {:.2f} µm): einzelne Punkte sind gestört, oder das Fehlende ist anderer Art.</translation>
+        <source>The nine parameters alone are improbable ({:.2g}), but {} does not predict points left out any better ({:.2f} µm against {:.2f} µm): single points are disturbed, or what is missing is of another kind.</source>
+        <translation>Die neun Parameter allein sind unwahrscheinlich ({:.2g}), aber {} sagt ausgelassene Punkte nicht besser vorher ({:.2f} µm gegen {:.2f} µm): einzelne Punkte sind gestört, oder das Fehlende ist anderer Art.</translation>
     </message>
     <message>
-        <source>the nine parameters are enough (probability {:.2g} among {} models).</source>
-        <translation>die neun Parameter genügen (Wahrscheinlichkeit {:.2g} unter {} Modellen).</translation>
+        <source>The nine parameters are enough (probability {:.2g} among {} models).</source>
+        <translation>Die neun Parameter genügen (Wahrscheinlichkeit {:.2g} unter {} Modellen).</translation>
     </message>
     <message>
         <source>the number of an input, from 0</source>
@@ -6419,8 +6395,8 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>die Punkte bestimmen die Gerade nicht: keine Richtung hat mehr Ausdehnung als die anderen</translation>
     </message>
     <message>
-        <source>the points do not determine the nine parameters, and so nothing of higher order.</source>
-        <translation>die Punkte bestimmen die neun Parameter nicht und daher nichts von höherer Ordnung.</translation>
+        <source>The points do not determine the nine parameters, and so nothing of higher order.</source>
+        <translation>Die Punkte bestimmen die neun Parameter nicht und daher nichts von höherer Ordnung.</translation>
     </message>
     <message>
         <source>the points do not determine the plane: they have no spread along {}</source>
@@ -6487,12 +6463,12 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>der Bereich des Tisches ist leer; zulässig: „bis“ größer als „von“, in mm.</translation>
     </message>
     <message>
-        <source>the residual of the ARX equation is not white (noise at the output, or missing dynamics): its coefficients are biased and their intervals do not hold; use --method oe or response.</source>
-        <translation>das Residuum der ARX-Gleichung ist nicht weiß (Rauschen am Ausgang oder fehlende Dynamik): ihre Koeffizienten sind verzerrt, ihre Intervalle gelten nicht; --method oe oder response verwenden.</translation>
+        <source>The residual of the ARX equation is not white (noise at the output, or missing dynamics): its coefficients are biased and their intervals do not hold; use --method oe or response.</source>
+        <translation>Das Residuum der ARX-Gleichung ist nicht weiß (Rauschen am Ausgang oder fehlende Dynamik): ihre Koeffizienten sind verzerrt, ihre Intervalle gelten nicht; --method oe oder response verwenden.</translation>
     </message>
     <message>
-        <source>the residuals are larger than the stated uncertainties allow (chi-squared {:.1f} with {} degrees of freedom, {}): the nine parameters do not describe this state, or a point is disturbed.</source>
-        <translation>die Residuen sind größer, als die angegebenen Unsicherheiten zulassen (Chi-Quadrat {:.1f} mit {} Freiheitsgraden, {}): die neun Parameter beschreiben diesen Zustand nicht, oder ein Punkt ist gestört.</translation>
+        <source>The residuals are larger than the stated uncertainties allow (chi-squared {:.1f} with {} degrees of freedom, {}): the nine parameters do not describe this state, or a point is disturbed.</source>
+        <translation>Die Residuen sind größer, als die angegebenen Unsicherheiten zulassen (Chi-Quadrat {:.1f} mit {} Freiheitsgraden, {}): die neun Parameter beschreiben diesen Zustand nicht, oder ein Punkt ist gestört.</translation>
     </message>
     <message>
         <source>the rest does not determine all parameters</source>
@@ -6691,8 +6667,8 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>die Antastung trifft Merkmal {} statt {}</translation>
     </message>
     <message>
-        <source>the touch noise rests on {:.0f} degrees of freedom only; the uncertainties are rough.</source>
-        <translation>das Antastrauschen beruht auf nur {:.0f} Freiheitsgraden; die Unsicherheiten sind grob.</translation>
+        <source>The touch noise rests on {:.0f} degrees of freedom only; the uncertainties are rough.</source>
+        <translation>Das Antastrauschen beruht auf nur {:.0f} Freiheitsgraden; die Unsicherheiten sind grob.</translation>
     </message>
     <message>
         <source>the touch starts inside material</source>
@@ -6763,8 +6739,8 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>es gibt keine Antastungen; zulässig: mindestens eine.</translation>
     </message>
     <message>
-        <source>there are too few points to see anything of higher order than the nine parameters.</source>
-        <translation>es gibt zu wenige Punkte, um etwas von höherer Ordnung als die neun Parameter zu sehen.</translation>
+        <source>There are too few points to see anything of higher order than the nine parameters.</source>
+        <translation>Es gibt zu wenige Punkte, um etwas von höherer Ordnung als die neun Parameter zu sehen.</translation>
     </message>
     <message>
         <source>there is no axis {}; the control drives X, Y and Z.</source>
@@ -6911,8 +6887,8 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>zu wenige Abtastwerte</translation>
     </message>
     <message>
-        <source>too few samples for a choice between methods: response.</source>
-        <translation>zu wenige Abtastwerte für eine Verfahrenswahl: response.</translation>
+        <source>Too few samples for a choice between methods: response.</source>
+        <translation>Zu wenige Abtastwerte für eine Verfahrenswahl: response.</translation>
     </message>
     <message>
         <source>too few samples for a regression</source>
@@ -6947,7 +6923,7 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Antastung {} {} läuft nicht entlang ihrer Achse.</translation>
     </message>
     <message>
-        <source>train and test overlap: the test figures are not evidence for new data.</source>
+        <source>Train and test overlap: the test figures are not evidence for new data.</source>
         <translation>Trainings- und Prüfbereich überlappen: die Prüfzahlen sind kein Beleg für neue Daten.</translation>
     </message>
     <message>
@@ -7595,8 +7571,8 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>{} ist ausgefallen: {}</translation>
     </message>
     <message>
-        <source>{} is needed (the nine parameters alone: probability {:.2g}); it predicts points left out to {:.2f} µm, the nine parameters to {:.2f} µm.</source>
-        <translation>{} ist nötig (die neun Parameter allein: Wahrscheinlichkeit {:.2g}); es sagt ausgelassene Punkte auf {:.2f} µm vorher, die neun Parameter auf {:.2f} µm.</translation>
+        <source>A model of {} is needed (the nine parameters alone: probability {:.2g}); it predicts points left out to {:.2f} µm, the nine parameters to {:.2f} µm.</source>
+        <translation>Ein Modell von {} ist nötig (die neun Parameter allein: Wahrscheinlichkeit {:.2g}); es sagt ausgelassene Punkte auf {:.2f} µm vorher, die neun Parameter auf {:.2f} µm.</translation>
     </message>
     <message>
         <source>{} is not allowed; a length in µm greater than zero is needed.</source>
@@ -9277,7 +9253,7 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>zwei</translation>
     </message>
     <message>
-        <source>what the model does not describe (X {:.2g} µm, Y {:.2g} µm, Z {:.2g} µm) is part of the uncertainty of every correction.</source>
+        <source>What the model does not describe (X {:.2g} µm, Y {:.2g} µm, Z {:.2g} µm) is part of the uncertainty of every correction.</source>
         <translation>Was das Modell nicht beschreibt (X {:.2g} µm, Y {:.2g} µm, Z {:.2g} µm), ist Teil der Unsicherheit jeder Korrektur.</translation>
     </message>
     <message>
@@ -9513,15 +9489,15 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Eine beizubehaltende Position ist doppelt angegeben; erlaubt: jede einmal.</translation>
     </message>
     <message>
-        <source>the expansion coefficient of {} is not stated: its lengths against the certificate are not corrected for {:.1f} K.</source>
+        <source>The expansion coefficient of {} is not stated: its lengths against the certificate are not corrected for {:.1f} K.</source>
         <translation>Der Ausdehnungskoeffizient von {} ist nicht angegeben: Seine Längen gegen das Zertifikat sind nicht um {:.1f} K korrigiert.</translation>
     </message>
     <message>
-        <source>the log has no spindle speed: that the machine was at rest could not be checked.</source>
+        <source>The log has no spindle speed: that the machine was at rest could not be checked.</source>
         <translation>Das Protokoll enthält keine Spindeldrehzahl: Ob die Maschine stillstand, konnte nicht geprüft werden.</translation>
     </message>
     <message>
-        <source>the machine file states no uncertainty of {} of {}: taken as exact, though lengths were corrected by up to {:.1f} µm/m.</source>
+        <source>The machine file states no uncertainty of {} of {}: taken as exact, though lengths were corrected by up to {:.1f} µm/m.</source>
         <translation>Die Maschinendatei nennt keine Unsicherheit für {} von {}: als exakt angenommen, obwohl Längen um bis zu {:.1f} µm/m korrigiert wurden.</translation>
     </message>
     <message>
@@ -9687,6 +9663,50 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>{}: found {} {}; allowed: {:g} to {:g}.</source>
         <translation>{}: gefunden {} {}; zulässig: {:g} bis {:g}.</translation>
+    </message>
+    <message>
+        <source>Not known yet: the drift {} may still exceed {} µm/h; measure longer.</source>
+        <translation>Noch nicht bekannt: die Drift {} kann noch {} µm/h überschreiten; länger messen.</translation>
+    </message>
+    <message>
+        <source>Point {} was measured fewer than {} times: too few to see a drift.</source>
+        <translation>Punkt {} wurde weniger als {}-mal gemessen: zu selten, um eine Drift zu sehen.</translation>
+    </message>
+    <message>
+        <source>Settled: the drift of every axis is below {} µm/h with its uncertainty.</source>
+        <translation>Eingelaufen: die Drift jeder Achse liegt mit ihrer Unsicherheit unter {} µm/h.</translation>
+    </message>
+    <message>
+        <source>The machine stood and its temperatures held meanwhile: it is the instrument that drifts, and its drift would appear in every deviation as a motion of the machine.</source>
+        <translation>Die Maschine stand, und ihre Temperaturen hielten sich inzwischen: es driftet das Messgerät, und seine Drift erschiene in jeder Abweichung als Bewegung der Maschine.</translation>
+    </message>
+    <message>
+        <source>Checking whether the instrument had settled</source>
+        <translation>Es wird geprüft, ob das Messgerät eingelaufen war</translation>
+    </message>
+    <message>
+        <source>the check of the warm-up</source>
+        <translation>die Prüfung des Warmlaufs</translation>
+    </message>
+    <message>
+        <source>1 picture</source>
+        <translation>1 Bild</translation>
+    </message>
+    <message>
+        <source>{} pictures</source>
+        <translation>{} Bilder</translation>
+    </message>
+    <message>
+        <source>The machines have different names: &quot;{}&quot; before, &quot;{}&quot; after.</source>
+        <translation>Die Maschinen haben verschiedene Namen: „{}“ vorher, „{}“ nachher.</translation>
+    </message>
+    <message>
+        <source>Not settled: the drift {} exceeds {} µm/h.</source>
+        <translation>Nicht eingelaufen: die Drift {} überschreitet {} µm/h.</translation>
+    </message>
+    <message>
+        <source>The model is fitted, but does not describe this state, or a point is disturbed: its residuals are larger than the stated uncertainties allow.</source>
+        <translation>Das Modell ist angepasst, beschreibt diesen Zustand aber nicht, oder ein Punkt ist gestört: seine Residuen sind größer, als die angegebenen Unsicherheiten erlauben.</translation>
     </message>
 </context>
 <context>
@@ -9866,10 +9886,6 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>A trend has one value a campaign. Dashed: control limits (3 standard deviations: scatter from campaign to campaign and uncertainty of the value). The moving average (EWMA) sees small shifts that last. Limits begin anew after an event that makes the machine another one. A change is named where chance makes one in fewer than 1 of 100 records. &lt;i&gt;Report&lt;/i&gt; writes all of a machine into one file.</source>
         <translation>Ein Verlauf hat einen Wert je Kampagne. Gestrichelt: Eingriffsgrenzen (3 Standardabweichungen: Streuung von Kampagne zu Kampagne und Unsicherheit des Werts). Der gleitende Mittelwert (EWMA) erkennt kleine, anhaltende Verschiebungen. Nach einem Ereignis, das die Maschine verändert, beginnen die Grenzen neu. Eine Änderung wird benannt, wo der Zufall sie in weniger als 1 von 100 Verläufen hervorbringt. &lt;i&gt;Bericht&lt;/i&gt; schreibt alles zu einer Maschine in eine Datei.</translation>
-    </message>
-    <message>
-        <source>An instrument that is still warming up measures itself. Measure one point every 5 minutes: the page fits the drift and says when it has settled.</source>
-        <translation>Ein Messgerät, das noch warm wird, misst sich selbst. Einen Punkt alle 5 Minuten messen: Die Seite passt die Drift an und zeigt, wann sie abgeklungen ist.</translation>
     </message>
     <message>
         <source>An uncertainty is one standard deviation unless stated otherwise.</source>
@@ -10234,6 +10250,10 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>No tables are written for Heidenhain (.COM, .CMA), Fanuc (pitch error data) and the sag compensation of Siemens (CEC): public documents do not state the sign of their values. The ISO 230-1 tables hold what the tools of the machine builder need for them.</source>
         <translation>Für Heidenhain (.COM, .CMA), Fanuc (Steigungsfehlerdaten) und die Durchhangkompensation von Siemens (CEC) werden keine Tabellen geschrieben: Öffentliche Unterlagen nennen das Vorzeichen ihrer Werte nicht. Die Tabellen nach ISO 230-1 enthalten, was die Werkzeuge des Maschinenherstellers dafür brauchen.</translation>
+    </message>
+    <message>
+        <source>An instrument that is still warming up measures itself. Measure one point every 5 minutes, then press &lt;b&gt;Check the drift&lt;/b&gt;: its fit says whether the instrument has settled.</source>
+        <translation>Ein Messgerät, das noch warm wird, misst sich selbst. Alle 5 Minuten einen Punkt messen, dann &lt;b&gt;Drift prüfen&lt;/b&gt; drücken: ihre Anpassung sagt, ob das Messgerät eingelaufen ist.</translation>
     </message>
 </context>
 <context>
@@ -16949,6 +16969,10 @@ einsatz</translation>
         <source>Reading the fit</source>
         <translation>Anpassung wird gelesen</translation>
     </message>
+    <message>
+        <source>Reading the points</source>
+        <translation>Punkte werden gelesen</translation>
+    </message>
 </context>
 <context>
     <name>spindrift::gui::NoisePanel</name>
@@ -21034,6 +21058,10 @@ einsatz</translation>
             <numerusform>%n Werte verglichen</numerusform>
         </translation>
     </message>
+    <message>
+        <source>Reading the points</source>
+        <translation>Punkte werden gelesen</translation>
+    </message>
 </context>
 <context>
     <name>spindrift::gui::View3D</name>
@@ -21288,20 +21316,16 @@ einsatz</translation>
         <translation>Abweichung von %1 / µm</translation>
     </message>
     <message>
-        <source>Operator&apos;s statement: the instrument was warm. Reports will state this.</source>
-        <translation>Angabe des Bedieners: Messgerät war warm. Wird in Berichten vermerkt.</translation>
-    </message>
-    <message>
-        <source>This campaign has no warm-up measurement. Either measure one point every 5 minutes until it settles, or state that the instrument was warm.</source>
-        <translation>Diese Kampagne hat keine Warmlaufmessung. Entweder alle 5 Minuten einen Punkt messen, bis das Messgerät eingelaufen ist, oder erklären, dass es warm war.</translation>
-    </message>
-    <message>
         <source>Withdraw the statement</source>
         <translation>Angabe zurücknehmen</translation>
     </message>
     <message>
         <source>Drift now / (µm/h)</source>
         <translation>Drift jetzt / (µm/h)</translation>
+    </message>
+    <message>
+        <source>Check the drift</source>
+        <translation>Drift prüfen</translation>
     </message>
 </context>
 <context>

@@ -147,9 +147,30 @@ TEST(Layers, TheWindowShowsNumbersAndWorksNoneOut) {
       if (include.starts_with("core/math/")) wrong.push_back(file.string() + " includes " + include);
   EXPECT_THAT(wrong, ::testing::IsEmpty()) << "statistics and fits belong into the result that is stored";
   const std::regex work(
-      R"re(\b(evaluateField|fieldBetween|secondAxisBias|closedFormsBeside|contrastGain|contrastAt|fitNineParameters|compareWithOthers|chooseTableOrder|leastSquares|solveLinear)\(|[.>]predict\()re");
+      R"re(\b(evaluateField|fieldBetween|secondAxisBias|closedFormsBeside|contrastGain|contrastAt|fitNineParameters|compareWithOthers|chooseTableOrder|leastSquares|solveLinear|differencesFromReference|gapFigures|verifyFigures|leaveOutPoles)\(|[.>]predict\(|\bDeviationQuery\b)re");
   EXPECT_THAT(holding(fs::path(SPINDRIFT_SOURCE_DIR) / "widgets", work), ::testing::IsEmpty())
       << "maps, closed forms and predictions are made by a job, in core";
+}
+
+/// What takes as long as there are points, states or nodes is asked of core in a work that is handed to a job or to a
+/// LatestWork, never by the window itself.
+TEST(Layers, TablesAndPicturesAreWorkedOutBesideTheWindow) {
+  const std::regex call(
+      R"re(\b(effectShape|pointChanges|verifyFiguresOfPoints|verifyMap|residualMap)\(|->movements\()re");
+  const std::regex handed_over(R"re(\b(display|run|ask)\()re");
+  std::size_t found = 0;
+  for (const fs::path& file : sources(fs::path(SPINDRIFT_SOURCE_DIR) / "widgets")) {
+    if (file.extension() != ".cpp") continue;
+    const std::string text = readFile(file);
+    for (std::sregex_iterator it(text.begin(), text.end(), call), end; it != end; ++it, ++found) {
+      // Within the function that calls, from its beginning on.
+      const auto at = static_cast<std::size_t>(it->position());
+      const std::size_t begin = text.rfind("\n}\n", at);
+      const std::string before = text.substr(begin == std::string::npos ? 0 : begin, at - begin);
+      EXPECT_TRUE(std::regex_search(before, handed_over)) << file << ": " << it->str();
+    }
+  }
+  EXPECT_GT(found, 4U);
 }
 
 /// What may be shown of a task, and for how long, is told by the graph: nobody compares what results were made from.
@@ -181,6 +202,14 @@ TEST(Layers, NobodyBranchesOnTheNameOfATask) {
                              "widgets/pages", "widgets/panels", "widgets/services", "widgets/workflow"})
     for (std::string& file : holding(root / folder, branch)) wrong.push_back(std::move(file));
   EXPECT_THAT(wrong, ::testing::IsEmpty());
+}
+
+/// Warnings and notes are sentences of their own, on every page, in the list of steps and in reports: nobody behind has
+/// to give them a capital. (The sentence of an error follows the name of its file.)
+TEST(Layers, WarningsAreSentencesFromTheirBeginning) {
+  const std::regex small_letter(
+      R"re((warnings|notes)\.(push_back|emplace_back)\(\s*(std::string\()?\s*(fmt::format\(\s*)?"[a-z]+[^a-z.])re");
+  EXPECT_THAT(holding(fs::path(SPINDRIFT_SOURCE_DIR) / "core", small_letter), ::testing::IsEmpty());
 }
 
 TEST(Layers, ErrorsCarryLinesOfFilesAsNumbers) {

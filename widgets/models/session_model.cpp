@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "core/base/error.h"
+#include "core/tasks/steps.h"
 #include "core/tasks/task_options.h"
 #include "core/tasks/task_work.h"
 #include "widgets/common/core_sentence.h"
@@ -390,11 +391,7 @@ std::string SessionModel::warmStatementKey() const {
 }
 
 std::optional<nlohmann::json> SessionModel::warmStatement() const {
-  nlohmann::json given = setting(warmStatementKey(), nlohmann::json());
-  if (given.is_object() && given.contains("by")) return given;
-  // Sessions of earlier versions keep it as a result; an empty object takes that back.
-  const StoredResult* result = given.is_null() ? latest("warm-up") : nullptr;
-  return result == nullptr ? std::nullopt : std::optional(result->payload);
+  return state_.campaign == nullptr ? std::nullopt : spindrift::warmStatement(tasks());
 }
 
 nlohmann::json SessionModel::setting(const std::string& key, const nlohmann::json& otherwise) const {

@@ -104,7 +104,14 @@ TEST(SessionCommand, EvaluateAndReportShareTheTasksOfTheWindow) {
   }
   EXPECT_EQ(jsonOf({"session", place, "--run", "outdated"}).at("ran"), nlohmann::json({"evaluate", "fit", "report"}));
   EXPECT_EQ(stepOf(jsonOf({"session", place}), "Report").at("state"), "done");
-  // Checks of the instrument are kept like everything else.
+  // Checks of the instrument are kept like everything else; command and step say the same of the warm-up.
+  const Outcome warm = runCli({"warm-up", place});
+  EXPECT_LE(warm.status, 1) << warm.error;
+  EXPECT_THAT(runCli({"warm-up", place}).output, HasSubstr("still current"));
+  const nlohmann::json answer = stepOf(jsonOf({"session", place}), "Warm-up");
+  EXPECT_EQ(answer.at("task"), "check-warm-up");
+  EXPECT_THAT(warm.output, HasSubstr(answer.at("sentence").get<std::string>().substr(0, 20)));
+  expectBadInput({"warm-up", place, "--limit", "3"}, {"is a session"});
   const Outcome jogs = runCli({"validate-jogs", place});
   EXPECT_LE(jogs.status, 1) << jogs.error;
   EXPECT_THAT(jogs.output, ::testing::Not(HasSubstr("still current")));

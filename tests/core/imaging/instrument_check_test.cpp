@@ -37,7 +37,7 @@ TEST(WarmUp, SaysNotSettledWhileItDrifts) {
   const WarmUpResult result = judgeWarmUp(warmUp(random, 45.0), "");
   EXPECT_EQ(result.point, "F1");
   EXPECT_FALSE(result.settled);
-  EXPECT_THAT(result.reason, HasSubstr("not settled"));
+  EXPECT_THAT(result.reason, HasSubstr("Not settled"));
   EXPECT_THAT(result.reason, HasSubstr("EY"));
 }
 

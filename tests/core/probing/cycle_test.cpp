@@ -443,7 +443,7 @@ TEST(BallCycle, AnUncertaintyThatIsNotStatedIsSaid) {
   ASSERT_FALSE(result.warnings.empty());
   EXPECT_EQ(
       result.warnings.back(),
-      "the machine file states no uncertainty of the expansion coefficient and the temperature of balls: taken as "
+      "The machine file states no uncertainty of the expansion coefficient and the temperature of balls: taken as "
       "exact, though lengths were corrected by up to 46.0 µm/m.");
 }
 
@@ -456,7 +456,7 @@ TEST(HoleCycle, WhatTheLengthsRestOnWithoutUncertaintyIsSaid) {
     return evaluateHoleCycles(run.list, m, m.artefacts.front(), {}, nullptr).warnings;
   };
   EXPECT_THAT(warningsOf(",\"expansion_um_per_m_K\":11.5"),
-              ::testing::Contains("the machine file states no uncertainty of the expansion coefficient and the "
+              ::testing::Contains("The machine file states no uncertainty of the expansion coefficient and the "
                                   "temperature of bar: taken as exact, though lengths were corrected by up to 57.5 "
                                   "µm/m."));
   EXPECT_THAT(warningsOf(""), ::testing::Contains(::testing::HasSubstr("not corrected for 5.0 K")));

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/tasks/steps.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include "core/base/job_context.h"
+#include "core/tasks/task_work.h"
 #include "core/workflows/measurement_plan.h"
 #include "tests/core/tasks/tasks_support.h"
 
@@ -101,6 +104,9 @@ TEST(Steps, WhatTheResultSaysIsSaid) {
   s.run("fit", {{"status", "degenerate"}, {"message", "Points on a line."}});
   EXPECT_EQ(s.step(StepId::Model).state, StepState::Attention);
   EXPECT_EQ(s.step(StepId::Model).sentence, "Points on a line.");
+  s.run("fit", {{"status", "converged"}, {"rejected", true}});
+  EXPECT_EQ(s.step(StepId::Model).state, StepState::Attention);
+  EXPECT_THAT(s.step(StepId::Model).sentence, HasSubstr("larger than the stated uncertainties"));
   s.run("compensation", {{"warnings", {"The model was rejected."}}});
   EXPECT_EQ(s.step(StepId::Compensate).state, StepState::Attention);
   s.run("verify", {{"verdict", "not met"}, {"reason", "EX is 7 um."}});
@@ -128,6 +134,65 @@ TEST(Steps, AnInstrumentThatFailedItsCheckIsNotWarm) {
   EXPECT_EQ(s.step(StepId::WarmUp).state, StepState::Current);
   s.run("check-jogs", {{"status", "not run"}, {"passed", false}, {"reason", "There are no jogs."}});
   EXPECT_EQ(s.step(StepId::WarmUp).state, StepState::Current) << "nothing was measured";
+}
+
+nlohmann::json warmUpOf(bool settled, const char* cause = "", const char* status = "converged") {
+  return {{"status", status},
+          {"settled", settled},
+          {"reason", "Said of the drift."},
+          {"cause", cause},
+          {"cause_reason", *cause == '\0' ? "" : "Said of the cause."}};
+}
+
+TEST(Steps, TheWarmUpIsWhatItsTaskFound) {
+  TaskSession s;
+  s.run("evaluate");
+  EXPECT_EQ(taskOfStep(s.graph(), StepId::WarmUp), "check-warm-up");
+  s.run("check-warm-up", warmUpOf(true));
+  EXPECT_EQ(s.step(StepId::WarmUp).state, StepState::Current);
+  EXPECT_EQ(s.step(StepId::WarmUp).sentence, "Said of the drift.");
+  s.session_.exclude(s.id_, "M1/F1/EX", "disturbed");
+  EXPECT_EQ(s.step(StepId::WarmUp).state, StepState::Outdated);
+  EXPECT_THAT(s.step(StepId::WarmUp).sentence, HasSubstr("1 exclusion more"));
+  s.run("evaluate");
+  s.run("check-warm-up", warmUpOf(false, "unknown"));
+  EXPECT_EQ(s.step(StepId::WarmUp).state, StepState::Attention);
+  EXPECT_EQ(s.step(StepId::WarmUp).sentence, "Said of the drift. Said of the cause.");
+  s.option(option_keys::warm_statement, {{"settled", true}, {"by", "operator"}});
+  EXPECT_EQ(s.step(StepId::WarmUp).state, StepState::Current) << "it may as well be the machine that drifts";
+  s.run("check-warm-up", warmUpOf(false, "instrument"));
+  EXPECT_EQ(s.step(StepId::WarmUp).state, StepState::Attention) << "measured against stated";
+  s.option(option_keys::warm_statement, nlohmann::json::object());
+  s.run("check-warm-up", warmUpOf(false, "", "degenerate"));
+  EXPECT_EQ(s.step(StepId::WarmUp).state, StepState::NotStarted) << "nothing was seen";
+  EXPECT_THAT(s.step(StepId::WarmUp).sentence, HasSubstr("Said of the drift. Not checked: a drift of the instrument"));
+}
+
+TEST(Steps, TheWarmUpIsJudgedByItsOwnMeasurementAndOnTheClockOfTheCampaign) {
+  TaskSession s;
+  std::string rows = "time_s,state,point,x_mm,y_mm,z_mm,component,value,sigma,instrument\n";
+  for (int i = 0; i < 12; ++i) rows += fmt::format("{},W{},F1,0,0,0,EX,{},0.1,microscope\n", 600 * i, i, 5 * i);
+  EXPECT_EQ(s.status("check-warm-up").state, TaskState::Blocked) << "neither observations nor a measurement of its own";
+  s.folder_.write("s/campaigns/c/warm_up.csv", rows);
+  s.session_.setSetting(Session::clocksKey(s.id_),
+                        nlohmann::json{{"microscope", {{"offset_s", 60.0}, {"sigma_s", 1.0}, {"how", "entered"}}}});
+  const TaskGraph graph = s.graph();
+  EXPECT_THAT(graph.needed("check-warm-up"), ::testing::ElementsAre("check-warm-up")) << "no captures are needed";
+  TaskInputs inputs;
+  inputs.campaign = std::make_shared<const Campaign>(graph.data());
+  JobContext job;
+  const TaskResult result = prepareTask("check-warm-up", graph, inputs)(job, TaskOutput::Payload);
+  s.run("check-warm-up", result.payload);
+  EXPECT_EQ(s.step(StepId::WarmUp).state, StepState::Attention);
+  EXPECT_THAT(s.step(StepId::WarmUp).sentence, HasSubstr("Not settled: the drift EX 30"));
+  const WarmUpResult read = warmUpFrom(result.payload);
+  ASSERT_EQ(read.axes[0].time_s.size(), 12U);
+  EXPECT_EQ(read.axes[0].time_s.front(), 60.0);
+  EXPECT_EQ(read.axes[0].value_um.back(), 55.0);
+  EXPECT_NEAR(read.axes[0].drift_um_per_h, 30.0, 1e-6);
+  EXPECT_FALSE(read.axes[1].measured);
+  EXPECT_EQ(read.cause, WarmUpCause::Unknown);
+  EXPECT_EQ(checkResultOf(read).json, result.payload) << "nothing is lost on the way";
 }
 
 TEST(Steps, ASkippedWarmUpSaysWhatItMeans) {

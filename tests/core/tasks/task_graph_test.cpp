@@ -35,6 +35,18 @@ TEST(TaskGraph, WhatIsNeededRunsFirstAndWhatHoldsIsNotRunAgain) {
   EXPECT_THROW((void)s.graph().needed("discrepancy"), InputError) << "there is no simulation";
 }
 
+TEST(TaskGraph, AnInputThatAnEarlierVersionDidNotKnowHasNotChangedWhileThereIsNone) {
+  TaskSession s;
+  s.run("evaluate");
+  ResultOrigin origin = s.graph().origin("report");
+  ASSERT_EQ(origin.inputs.at("check-warm-up"), "");
+  origin.inputs.erase("check-warm-up");
+  s.session_.keepResult(origin, nlohmann::json::object());
+  EXPECT_TRUE(s.status("report").current);
+  s.run("check-warm-up", {{"status", "converged"}, {"settled", true}, {"reason", "Settled."}});
+  EXPECT_THAT(s.status("report").changed, ElementsAre("the check of the warm-up"));
+}
+
 TEST(TaskGraph, AResultIsOutdatedByWhatItWasMadeFromAndSaysByWhat) {
   TaskSession s;
   s.run("evaluate");

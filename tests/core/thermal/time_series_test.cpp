@@ -87,7 +87,7 @@ TEST(TimeSeries, AWordAmongNumbersOfAnotherSignalIsMissing) {
   EXPECT_THAT(s.notes, ::testing::Contains(HasSubstr("2 of 4 values of flow are missing")));
   const TimeSeries words = parseTimeSeries("time_s,ez_um,alarm\n0,1,none\n10,2,E7\n20,3,0\n", "log.csv");
   EXPECT_EQ(words.signals.size(), 1U);
-  EXPECT_THAT(words.notes, ::testing::Contains(HasSubstr("column alarm holds text")));
+  EXPECT_THAT(words.notes, ::testing::Contains(HasSubstr("Column alarm holds text")));
 }
 
 TEST(TimeSeries, FindsOutliersStepsAndGaps) {

@@ -75,7 +75,7 @@ TEST(CompensationPlan, OfARejectedModelCarriesTheLackOfFitAndOffersTheRicherOne)
     EXPECT_LT(std::abs(*p.remains_um[2]), 4.0 * p.sigma_um.z());
   }
   EXPECT_THAT(nine.richer_model, HasSubstr("second order in EZ"));
-  EXPECT_THAT(nine.warnings, Contains(HasSubstr("a richer model fits better")));
+  EXPECT_THAT(nine.warnings, Contains(HasSubstr("A richer model fits better")));
   EXPECT_EQ(nine.json()["richer_model"], nine.richer_model);
   EXPECT_EQ(nine.json()["lack_of_fit_um"].size(), 3U);
 
@@ -94,7 +94,7 @@ TEST(CompensationPlan, OfAGoodModelIsAsCertainAsItsParameters) {
   EXPECT_LT(nine.rms_sigma_um, 0.4);
   EXPECT_TRUE(nine.json()["richer_model"].is_null());
   const CompensationPlan asked = planOf(campaign, CompensationSource::HigherOrder);
-  EXPECT_THAT(asked.warnings, Contains(HasSubstr("a model of higher order is not supported")));
+  EXPECT_THAT(asked.warnings, Contains(HasSubstr("A model of higher order is not supported")));
 }
 
 TEST(CompensationPlan, StatesWhatItDoesOnValuesThatTrainedNothing) {
@@ -132,7 +132,7 @@ TEST(CompensationPlan, StatesNothingOfAnAxisThatWasNotMeasured) {
   }
   EXPECT_THAT(names, Contains("linuxcnc_X.comp"));
   EXPECT_THAT(names, Not(Contains("linuxcnc_Z.comp"))) << "a screw table is a statement, too";
-  EXPECT_THAT(plan.warnings, Contains(HasSubstr("nothing was measured along Z")));
+  EXPECT_THAT(plan.warnings, Contains(HasSubstr("Nothing was measured along Z")));
 }
 
 TEST(Heatmap, OfARejectedModelCarriesTheLackOfFit) {
@@ -151,7 +151,7 @@ TEST(CompensationPlan, WhatScattersAboutOneHeightIsNoExtentAlongZ) {
   Random random(5);
   for (Observation& o : campaign.observations->rows) o.position_mm.z() = -3.0 + 0.005 * random.uniform(-1.0, 1.0);
   const CompensationPlan plan = planOf(campaign, CompensationSource::NineParameters);
-  EXPECT_THAT(plan.warnings, Contains(HasSubstr("nothing was measured along Z")));
+  EXPECT_THAT(plan.warnings, Contains(HasSubstr("Nothing was measured along Z")));
   for (const CompensationFile& f : plan.files) {
     EXPECT_NE(f.name, "linuxcnc_Z.comp");
     EXPECT_NE(f.name, "siemens_Z_eec.ini");

@@ -98,6 +98,26 @@ TEST_F(ReportSections, ShowsImagesAndSaysWhichCannotBeRead) {
   EXPECT_NEAR(std::stod(box[1]) / std::stod(box[2]), 1.5, 0.01);
 }
 
+TEST_F(ReportSections, WhatIsGoneWhenTheReportIsWrittenIsSaidInItsPlace) {
+  std::filesystem::create_directories(folder_ / "captures/images");
+  cv::imwrite((folder_ / "captures/images/a.png").string(), cv::Mat(60, 80, CV_8U, cv::Scalar(128)));
+  const std::string columns = "time_s,state,fiducial,role,index,x_mm,y_mm,z_mm,spindle_deg,image\n";
+  writeFileAtomically(folder_ / "captures/fiducials.csv", columns +
+                                                              "0,M0,F1,focus,0,1,2,3,0,captures/images/a.png\n"
+                                                              "1,M0,F2,focus,0,1,2,3,0,captures/images/b.png\n");
+  ReportOptions options;
+  options.evaluated = CampaignEvaluation();
+  std::string text = html(options);
+  EXPECT_THAT(text, HasSubstr("The first image of every fiducial and state"));
+  EXPECT_THAT(text, HasSubstr("1 of 2 pictures is left out: captures/images/b.png is missing or cannot be read."));
+  std::filesystem::remove(folder_ / "captures/images/a.png");
+  text = html(options);
+  EXPECT_THAT(text,
+              HasSubstr("2 of 2 pictures are left out: captures/images/a.png and captures/images/b.png are missing "
+                        "or cannot be read."));
+  EXPECT_THAT(text, Not(HasSubstr("The first image of"))) << "no empty frames";
+}
+
 TEST_F(ReportSections, CloudsAreSeenFromAboveWithHolesLeftWhite) {
   std::vector<float> xyz, height;
   for (int x = 0; x < 200; ++x)
@@ -120,7 +140,7 @@ TEST_F(ReportSections, CloudsAreSeenFromAboveWithHolesLeftWhite) {
 
 TEST_F(ReportSections, TellsPlanChecksCompensationAndVerification) {
   ReportOptions options;
-  options.stored.warm_up = {{"settled", true}, {"by", "operator"}};
+  options.stored.warm_statement = {{"settled", true}, {"by", "operator"}};
   options.stored.repeatability = {{"passed", false}, {"reason", "EX returns within 4 µm only."}};
   options.stored.plan = nlohmann::json::parse(
       R"({"format":"spindrift-plan","version":1,"states":[{"name":"M0","due_s":0,"what":"cold"}],
@@ -171,7 +191,18 @@ TEST_F(ReportSections, ASkippedWarmUpIsSaid) {
   ReportOptions options;
   options.stored.jogs = {{"passed", true}, {"reason", "EX returns within 0.2 µm."}};
   EXPECT_THAT(html(options), HasSubstr(sentence)) << "another check is not the warm-up";
-  options.stored.warm_up = {{"settled", true}, {"by", "operator"}};
+  options.stored.warm_up = {{"status", "degenerate"}, {"settled", false}, {"reason", "Point F1 was measured twice."}};
+  EXPECT_THAT(html(options), HasSubstr(sentence)) << "nothing was seen";
+  EXPECT_THAT(html(options), HasSubstr("not decided"));
+  options.stored.warm_up = {{"status", "converged"},
+                            {"settled", false},
+                            {"reason", "Not settled: EX drifts."},
+                            {"cause", "unknown"},
+                            {"cause_reason", "Nobody logged what the machine did."}};
+  EXPECT_THAT(html(options), HasSubstr("Warm-up: Nobody logged what the machine did."));
+  EXPECT_THAT(html(options), HasSubstr("Not settled: EX drifts."));
+  options.stored.warm_up = nullptr;
+  options.stored.warm_statement = {{"settled", true}, {"by", "operator"}};
   EXPECT_THAT(html(options), Not(HasSubstr(sentence)));
 }
 
@@ -194,7 +225,7 @@ TEST_F(ReportSections, OfALogAloneTellsConditionsStandardTestModelAndCompensatio
                                      {"steps", 181},
                                      {"holding_steps", 0},
                                      {"fallback_steps", 0},
-                                     {"warnings", {"the model of Z_um was called not good enough"}},
+                                     {"warnings", {"The model of Z_um was called not good enough"}},
                                      {"outputs",
                                       {{{"name", "Z_um"},
                                         {"rms_before", 9.5},

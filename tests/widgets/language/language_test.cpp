@@ -290,8 +290,10 @@ TEST_F(LanguageTest, ValuesOfASentenceAreTranslatedAndNumbersWrittenAsTheLanguag
             QStringLiteral("Das Ziel von 2,5 µm ist erreicht: größte Abweichung EX beträgt 1,2 ± 0,3 µm bei F1, M2."));
   EXPECT_EQ(coreSentence("All captures are checked."), QStringLiteral("Alle Aufnahmen sind geprüft."));
   EXPECT_EQ(coreSentence("3 of 12 captures are checked."), QStringLiteral("3 von 12 Aufnahmen sind geprüft."));
-  EXPECT_EQ(coreSentence("Not settled: X drifts faster than 0.5 µm/h."),
-            QStringLiteral("Nicht eingelaufen: X driftet schneller als 0,5 µm/h."))
+  EXPECT_EQ(coreSentence("Not settled: the drift X exceeds 0.5 µm/h."),
+            QStringLiteral("Nicht eingelaufen: die Drift X überschreitet 0,5 µm/h."));
+  EXPECT_EQ(coreSentence("Point \"Q\" was not measured in state M1; allowed: M0."),
+            QStringLiteral("Punkt „Q“ wurde in Zustand M1 nicht gemessen; zulässig: M0."))
       << "a sentence that begins with a capital where its format does not";
   EXPECT_EQ(coreSentence("Nobody ever wrote such a thing 1.5 times."),
             QStringLiteral("Nobody ever wrote such a thing 1,5 times."));

@@ -83,6 +83,8 @@ const std::vector<Case>& cases() {
       {"fiducials", StepId::Calibrate, "Evaluating the captures", "evaluate"},
       {"fiducials", StepId::Model, "Fitting the nine-parameter model", "fit", Start::RunAll,
        option_keys::nine_parameters},
+      {"fiducials", StepId::Model, "Reading the points", "", Start::Show},
+      {"fiducials", StepId::WarmUp, "Checking whether the instrument had settled", "check-warm-up"},
       {"fiducials", StepId::WarmUp, "Checking the jogs", "check-jogs", Start::Jogs},
       {"fiducials", StepId::WarmUp, "Checking the repeatability", "check-repeatability", Start::Repeatability},
       {"fiducials", StepId::Compensate, "Calculating the compensation", "compensation", Start::RunAll,

@@ -391,6 +391,30 @@ TEST_F(MainWindowTest, JogsAreHeldAgainstTheResolution) {
   EXPECT_EQ(page->jogs()->verdict()->tone(), Tone::Attention);
 }
 
+TEST_F(MainWindowTest, TheWarmUpPageSaysWhatTheStepSaysOfTheStoredCheck) {
+  openEightPoints();
+  window_->workflow().goTo(StepId::WarmUp);
+  auto* page = qobject_cast<WarmUpPage*>(window_->currentPage());
+  ASSERT_NE(page, nullptr);
+  const auto agree = [&](StepState state) {
+    EXPECT_EQ(window_->workflow().status(StepId::WarmUp).state, state);
+    EXPECT_EQ(page->callout()->sentence(), window_->workflow().status(StepId::WarmUp).sentence);
+  };
+  agree(StepState::NotStarted);
+  EXPECT_EQ(window_->session().latest("check-warm-up"), nullptr) << "nothing is judged before it is asked for";
+  QTest::mouseClick(page->primaryButton(), Qt::LeftButton);
+  ASSERT_TRUE(waitForJobs(*window_, 60));
+  const StoredResult* stored = window_->session().latest("check-warm-up");
+  ASSERT_NE(stored, nullptr);
+  EXPECT_TRUE(
+      page->callout()->sentence().contains(QString::fromStdString(stored->payload.at("reason").get<std::string>())));
+  agree(window_->workflow().status(StepId::WarmUp).state);
+  window_->undoStack().push(
+      new ExcludeCommand(window_->session(), {QStringLiteral("M1/F1/EX")}, QStringLiteral("disturbed")));
+  ASSERT_TRUE(waitForJobs(*window_, 60));
+  agree(StepState::Outdated);
+}
+
 TEST_F(MainWindowTest, WaitingForJobsWaitsForWhatALoadedComputerPutsOff) {
   openEightPoints();
   QTest::mouseClick(window_->stepList()->button(StepId::WarmUp), Qt::LeftButton);

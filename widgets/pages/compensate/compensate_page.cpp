@@ -280,7 +280,7 @@ void CompensatePage::refresh() {
     // A correction from a model that does not describe the state must not be given away unnoticed.
     QStringList warnings;
     if (plan_)
-      for (const std::string& w : plan_->warnings) warnings << sentenceStart(coreSentence(w));
+      for (const std::string& w : plan_->warnings) warnings << coreSentence(w);
     callout()->set(warnings.isEmpty() ? Tone::Neutral : Tone::Attention, warnings.join(QLatin1Char(' ')));
     if (plan_ && !plan_->richer_model.empty()) {
       callout()->setAction(tr("Use the higher order"), [this] {

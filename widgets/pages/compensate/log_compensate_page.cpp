@@ -97,7 +97,7 @@ void LogCompensatePage::refresh() {
     // What speaks against the model is said before what it achieves.
     QString against;
     for (const std::string& warning : run.result.warnings) {
-      against += sentenceStart(coreSentence(warning)) + QLatin1Char(' ');
+      against += coreSentence(warning) + QLatin1Char(' ');
     }
     callout()->show(
         better && against.isEmpty() ? Tone::Good : Tone::Attention,

@@ -9,9 +9,8 @@
 #include <QTabWidget>
 #include <QTableView>
 #include <QVBoxLayout>
+#include <algorithm>
 #include <cmath>
-#include <map>
-#include <set>
 
 #include "core/base/atomic_file.h"
 #include "core/base/error.h"
@@ -182,6 +181,7 @@ void NineParameterPage::refresh() {
   const auto campaign = session().campaign();
   if (campaign == nullptr) return;
   if (noticeCampaign()) {
+    changes_.reset();
     result_.reset();
     showFit();
   }
@@ -221,41 +221,39 @@ void NineParameterPage::refresh() {
 
 void NineParameterPage::fillPoints() {
   const auto set = session().observations();
+  const std::string state = state_->currentText().toStdString();
+  if (set == nullptr || state.empty()) {
+    changes_.reset();
+  } else if (changes_ == nullptr || changes_->of != set || changes_->state != state) {
+    display(tr("Reading the points"), [this, set, state](JobContext&) -> std::function<void()> {
+      return [this, now = std::make_shared<const Changes>(Changes{set, state, pointChanges(*set, state)})] {
+        changes_ = now;
+        showPoints();
+      };
+    });
+  }
+  showPoints();
+}
+
+void NineParameterPage::showPoints() {
   std::vector<Row> rows;
-  if (set) {
-    const NineParameterOptions o = options();
-    std::map<std::string, std::map<Component, std::pair<double, double>>> values;
-    std::map<std::string, Eigen::Vector3d> positions;
-    if (!state_->currentText().isEmpty()) {
-      const StateDifferences change = differencesFromReference(*set, state_->currentText().toStdString());
-      for (std::size_t k = 0; k < change.rows.size(); ++k) {
-        const Observation& row = set->rows[change.rows[k]];
-        values[row.point][row.component] = {change.value_um(static_cast<Eigen::Index>(k)), change.sigma_um(k)};
-        positions[row.point] = row.position_mm;
-      }
+  const NineParameterOptions o = options();
+  for (const PointChange& point : changes_ == nullptr ? std::vector<PointChange>() : changes_->points) {
+    Row row;
+    row.id = QString::fromStdString(point.point);
+    Cell name{row.id};
+    name.bold = true;
+    name.checked = o.points.empty() || std::find(o.points.begin(), o.points.end(), point.point) != o.points.end();
+    row.cells = {name, {decimalText(point.position_mm.x(), 'g', 5)}, {decimalText(point.position_mm.y(), 'g', 5)}};
+    for (Eigen::Index c = 0; c < 3; ++c) {
+      Cell cell;
+      cell.text = std::isnan(point.value_um[c])
+                      ? QStringLiteral("–")
+                      : shownNumbers(QString::fromStdString(withUncertainty(point.value_um[c], point.sigma_um[c], "")));
+      row.cells.push_back(cell);
     }
-    for (const std::string& point : set->points()) {
-      if (!values.contains(point)) continue;
-      Row row;
-      row.id = QString::fromStdString(point);
-      Cell name{row.id};
-      name.bold = true;
-      name.checked = o.points.empty() || std::find(o.points.begin(), o.points.end(), point) != o.points.end();
-      row.cells = {name, {decimalText(positions[point].x(), 'g', 5)}, {decimalText(positions[point].y(), 'g', 5)}};
-      for (Cell* c : {&row.cells[1], &row.cells[2]}) c->right = true;
-      for (const Component c : shown_components) {
-        const auto found = values[point].find(c);
-        Cell cell;
-        cell.right = true;
-        cell.text =
-            found == values[point].end()
-                ? QStringLiteral("–")
-                : shownNumbers(QString::fromStdString(withUncertainty(found->second.first, found->second.second, "")));
-        cell.text = cell.text.trimmed();
-        row.cells.push_back(cell);
-      }
-      rows.push_back(std::move(row));
-    }
+    for (std::size_t c = 1; c < row.cells.size(); ++c) row.cells[c].right = true;
+    rows.push_back(std::move(row));
   }
   points_->setRows(std::move(rows));
 }
@@ -280,7 +278,7 @@ void NineParameterPage::showFit() {
   QString warnings;
   for (const std::string& w : f.warnings) warnings += QLatin1Char(' ') + coreSentence(w);
   higher_->setEnabled(order.richer());
-  const QString reason = sentenceStart(coreSentence(order.reason));
+  const QString reason = coreSentence(order.reason);
   higher_->setToolTip(onScreen(reason));
   if (f.status == FitStatus::Converged) {
     if (order.richer() || !warnings.isEmpty()) warnings += QLatin1Char(' ') + reason;

@@ -3,11 +3,15 @@
 // maps with the measured arrows; two sets of points compared.
 #pragma once
 
+#include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "core/machine/field.h"
 #include "core/machine/nine_parameter_model.h"
 #include "core/machine/table_polynomial.h"
+#include "core/workflows/nine_parameter_maps.h"
 #include "widgets/commands/bound_options.h"
 #include "widgets/pages/page.h"
 
@@ -42,6 +46,7 @@ class NineParameterPage : public Page {
 
  private:
   void fillPoints();
+  void showPoints();
   void showFit();
   void showField();
   void showDifference();
@@ -49,12 +54,17 @@ class NineParameterPage : public Page {
   void showComparison();
   [[nodiscard]] NineParameterOptions options() const;
 
-  static constexpr std::array<Component, 3> shown_components{Component::EX, Component::EY, Component::EZ};
-
   QPushButton* fit_button_;
   QComboBox* state_;
   QComboBox* robust_;
   RowsModel* points_;
+  /// What stands in the table of points.
+  struct Changes {
+    std::shared_ptr<const ObservationSet> of;
+    std::string state;
+    std::vector<PointChange> points;
+  };
+  std::shared_ptr<const Changes> changes_;
   RowsModel* parameters_;
   RowsModel* residuals_;
   RowsModel* comparison_;

@@ -11,7 +11,7 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/imaging/warm_up.h"
+#include "core/workflows/instrument_checks.h"
 #include "widgets/commands/commands.h"
 #include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
@@ -27,6 +27,7 @@ namespace spindrift::gui {
 namespace {
 
 constexpr std::size_t most_plotted_rows = 1500;
+constexpr auto warm_up_task = "check-warm-up";
 
 }  // namespace
 
@@ -35,6 +36,8 @@ WarmUpPage::WarmUpPage(PageContext page_context, QWidget* parent)
   confirm_ = makeButton(tr("The instrument was warm"), "check");
   confirm_->setToolTip(tr("Records your statement, so that the report can say on what it rests"));
   addAction(confirm_);
+  check_ = makeButton(tr("Check the drift"), nullptr, "primary");
+  addAction(check_);
   auto* instrument = new Card;
   tabs_ = makeTabs();
   instrument->body()->addWidget(tabs_, 1);
@@ -81,6 +84,11 @@ WarmUpPage::WarmUpPage(PageContext page_context, QWidget* parent)
   showHints(drift_);
   showHints(temperature_);
   connect(confirm_, &QPushButton::clicked, this, &WarmUpPage::confirm);
+  connect(check_, &QPushButton::clicked, this, &WarmUpPage::runAll);
+}
+
+void WarmUpPage::runAll() {
+  check(warm_up_task);
 }
 
 void WarmUpPage::check(const std::string& task) {
@@ -204,20 +212,18 @@ void WarmUpPage::refresh() {
   noticeCampaign();
   showTemperatures();
 
-  // The point that was measured most often, judged by its drift and not by a fixed time.
   std::vector<Series> drift;
   std::vector<Row> rows;
   std::optional<WarmUpResult> judged;
-  QString unreadable;
-  try {
-    // A measurement made for this very purpose stands in a file of its own.
-    const std::filesystem::path own = campaign->path("warm_up.csv");
-    const auto set = std::filesystem::exists(own) ? std::make_shared<const ObservationSet>(ObservationSet::read(own))
-                                                  : session().observations();
-    if (set) judged = judgeWarmUp(*set, {}, {}, campaign->log ? &*campaign->log : nullptr);
-  } catch (const InputError& e) {
-    judged.reset();
-    unreadable = coreSentence(e.what());
+  // What the step says, in the list of steps and on the command line.
+  const StepStatus& status = context().workflow.status(StepId::WarmUp);
+  callout()->show(status.state == StepState::NotStarted ? Tone::Attention : stateTone(status.state), status.sentence);
+  if (const StoredResult* stored = session().latest(warm_up_task)) {
+    try {
+      judged = warmUpFrom(stored->payload);
+    } catch (const InputError& e) {
+      showFailure(coreSentence(e.what()));
+    }
   }
   if (judged && judged->status == FitStatus::Converged) {
     double last = 0;
@@ -258,19 +264,8 @@ void WarmUpPage::refresh() {
   drift_->setContent(std::move(drift));
   verdicts_->setRows(std::move(rows));
   const bool stated = session().warmStatement().has_value();
-  const bool measured = judged && judged->status == FitStatus::Converged;
-  if (stated) {
-    callout()->show(Tone::Good, tr("Operator's statement: the instrument was warm. Reports will state this."));
-  } else if (measured) {
-    QString sentence = coreSentence(judged->reason);
-    if (!judged->cause_reason.empty()) sentence += QLatin1Char(' ') + coreSentence(judged->cause_reason);
-    callout()->show(judged->settled ? Tone::Good : Tone::Attention, sentence);
-  } else if (!unreadable.isEmpty()) {
-    callout()->show(Tone::Attention, unreadable);
-  } else {
-    callout()->show(Tone::Attention, tr("This campaign has no warm-up measurement. Either measure one point every 5 "
-                                        "minutes until it settles, or state that the instrument was warm."));
-  }
+  check_->setToolTip(coreSentence(session().tasks().whyNot(warm_up_task)));
+  check_->setEnabled(check_->toolTip().isEmpty());
   confirm_->setText(QChar(0x2009) + (stated ? tr("Withdraw the statement") : tr("The instrument was warm")));
   jogs_->refresh();
   repeatability_->refresh();

@@ -23,6 +23,8 @@ class WarmUpPage : public Page {
  public:
   explicit WarmUpPage(PageContext context, QWidget* parent = nullptr);
   void refresh() override;
+  void runAll() override;
+  [[nodiscard]] QPushButton* primaryButton() const override { return check_; }
   [[nodiscard]] std::vector<Exportable> exportables() override;
   [[nodiscard]] ResolutionCheckPanel* jogs() const { return jogs_; }
   [[nodiscard]] ClockPanel* clocks() const { return clocks_; }
@@ -41,6 +43,7 @@ class WarmUpPage : public Page {
   std::int64_t recorded_visit_ = -1;
   QElapsedTimer since_read_;
   QElapsedTimer since_shown_;
+  QPushButton* check_;
   QPushButton* confirm_;
   QTabWidget* tabs_;
   ResolutionCheckPanel* jogs_;

@@ -320,7 +320,7 @@ void VerifyPage::showMaps() {
   if (stack_->currentIndex() != 1) return;
   const auto component = componentFromString(component_->currentText().toStdString());
   if (!component) return;
-  const double goal = isRotation(*component) ? result_->request.goal_urad : result_->request.goal_um;
+  const double goal = result_->goal(*component);
   display(tr("Drawing before and after"),
           [this, result = result_, campaign = session().campaign(), component = *component, state = maps_->state(),
            goal](JobContext&) -> std::function<void()> {
@@ -340,7 +340,12 @@ void VerifyPage::showPlot() {
     return;
   }
   points_title_->setText(tr("%1 at the points").arg(component_->currentText()));
-  points_->setRows(verifyPointRows(*result_, *component));
+  display(tr("Reading the points"),
+          [this, result = result_, component = *component](JobContext&) -> std::function<void()> {
+            return [this, result, component, figures = verifyFiguresOfPoints(*result, component)] {
+              if (result == result_) points_->setRows(verifyPointRows(figures, component, result->goal(component)));
+            };
+          });
   VerifyCurves curves = verifyCurves(*result_, *component);
   plot_->setAxes(curves.x_title, curves.y_title);
   plot_->setContent(std::move(curves.series));

@@ -302,7 +302,8 @@ void EffectsPanel::makeBrowser() {
 }
 
 bool EffectsPanel::busy() const {
-  return list_work_.busy() || check_work_.busy() || debounce_.isActive() || switch_queued_;
+  return list_work_.busy() || check_work_.busy() || debounce_.isActive() || switch_queued_ || picture_->busy() ||
+         (editor_picture_ != nullptr && editor_picture_->busy());
 }
 
 bool EffectsPanel::editing() const {
@@ -854,9 +855,9 @@ std::vector<Exportable> EffectsPanel::exportables() {
                                          effectsJson(listing_.effects, listing_.own.get()).dump(2) + "\n");
                    }});
   if (!picture_->empty()) {
-    items.push_back({tr("Shape of the effect"), {QStringLiteral("png")}, [this](const QString& file) {
-                       picture_->exportTo(file);
-                     }});
+    items.push_back({tr("Shape of the effect"),
+                     {QStringLiteral("png"), QStringLiteral("svg"), QStringLiteral("pdf")},
+                     [this](const QString& file) { picture_->exportTo(file); }});
   }
   return items;
 }

@@ -225,12 +225,11 @@ void GapPanel::show(const std::shared_ptr<const DiscrepancyStory>& story, const 
     moment_text_->clear();
     return;
   }
-  const std::vector<DiscrepancyReportRow> rows = discrepancy_->reportData().rows;
-  std::array<GapFigures, 2> figures{gapFigures(rows, false), gapFigures(rows, true)};
-  if (discrepancy_->added.empty()) {
-    for (GapFigures& f : figures) f.p2p_after = f.fit_after_percent = std::nan("");
-  }
-  bars_->set(discrepancy_->gap, discrepancy_->has_holdout, figures[0], figures[1]);
+  movements_.ask([this, story]() -> std::function<void()> {
+    return [this, story, figures = story->movements()] {
+      if (story == discrepancy_) bars_->set(story->gap, story->has_holdout, figures[0], figures[1]);
+    };
+  });
   if (discrepancy_->added.empty()) {
     model_->setText(discrepancy_->proposed
                         ? tr("Nothing has been added yet. With what is proposed the rms would fall to %1.")

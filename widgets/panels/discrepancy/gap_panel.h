@@ -85,7 +85,7 @@ class GapPanel : public QWidget {
   double plot_second_ = 1.0;  ///< one second on the plots' axis of time
   bool views_stale_ = false;  ///< something changed while the panel was not in sight
   double largest_ = 0.0;      ///< of the maps of this component, before
-  LatestWork maps_;
+  LatestWork maps_, movements_;
 };
 
 }  // namespace spindrift::gui

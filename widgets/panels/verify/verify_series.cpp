@@ -90,7 +90,7 @@ VerifyCurves verifyCurves(const VerifyResult& result, Component component) {
   const bool single = values.size() <= most_single_values;
   curves.series = single ? singleValues(values) : ranges(values);
   const double last = curves.series.front().x.back();
-  const double goal = rotation ? result.request.goal_urad : result.request.goal_um;
+  const double goal = result.goal(component);
   for (const double sign : {1.0, -1.0}) {
     if (!(goal > 0.0)) continue;
     Series limit;
@@ -110,23 +110,10 @@ VerifyCurves verifyCurves(const VerifyResult& result, Component component) {
   return curves;
 }
 
-std::vector<Row> verifyPointRows(const VerifyResult& result, Component component) {
-  std::vector<std::vector<const VerifyPoint*>> points;
-  for (const VerifyPoint* p : valuesOf(result, component)) {
-    const auto found =
-        std::find_if(points.begin(), points.end(), [&](const auto& of) { return of.front()->point == p->point; });
-    if (found == points.end()) {
-      points.push_back({p});
-    } else {
-      found->push_back(p);
-    }
-  }
+std::vector<Row> verifyPointRows(const std::vector<VerifyPointFigures>& points, Component component, double goal) {
   const QString unit = unitText(unitOf(component));
-  const double goal = isRotation(component) ? result.request.goal_urad : result.request.goal_um;
   std::vector<Row> rows;
-  for (const auto& of : points) {
-    const VerifyFigures before = verifyFigures(of, false);
-    const VerifyFigures after = verifyFigures(of, true);
+  for (const auto& [point, before, after] : points) {
     const auto cell = [&](double value, double sigma, const std::string& at = {}) {
       Cell out{quantityText(value, sigma, unit)};
       out.right = true;
@@ -134,7 +121,7 @@ std::vector<Row> verifyPointRows(const VerifyResult& result, Component component
       return out;
     };
     Row row;
-    row.id = fromCore(of.front()->point);
+    row.id = fromCore(point);
     row.cells = {nameCell(row.id), cell(before.rms, before.rms_sigma), cell(after.rms, after.rms_sigma),
                  cell(before.largest, before.largest_sigma, before.largest_at),
                  cell(after.largest, after.largest_sigma, after.largest_at)};

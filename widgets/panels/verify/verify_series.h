@@ -24,6 +24,8 @@ struct VerifyCurves {
 inline constexpr std::size_t most_single_values = 60;
 
 /// A row for each point: rms and largest change of one component, before and after, and where after is the largest.
-[[nodiscard]] std::vector<Row> verifyPointRows(const VerifyResult& result, Component component);
+/// `goal` in the unit of the component; 0: none.
+[[nodiscard]] std::vector<Row> verifyPointRows(const std::vector<VerifyPointFigures>& points, Component component,
+                                               double goal);
 
 }  // namespace spindrift::gui

@@ -83,6 +83,7 @@ class EffectsPanelTest : public StoryTest {
   }
   /// Pictures for people to look at, where the environment names a folder for them.
   void picture(const char* name) {
+    settle();
     const QString folder = qEnvironmentVariable("SPINDRIFT_TEST_PICTURES");
     if (folder.isEmpty()) return;
     window_->resize(1280, 800);
@@ -103,8 +104,9 @@ TEST_F(EffectsPanelTest, ListsFiltersAndDraws) {
   const int all = shown();
   EXPECT_EQ(all, static_cast<int>(panel_->listing().effects.size()));
   panel_->choose("spindle.growth.z");
-  EXPECT_FALSE(panel_->picture()->empty());
-  EXPECT_NEAR(panel_->picture()->largest(), 1.0, 1e-9);
+  settle();
+  ASSERT_FALSE(panel_->picture()->empty());
+  EXPECT_NEAR(panel_->picture()->shape()->largest, 1.0, 1e-9);
   for (const char* word : {"spindle.growth.z", "Formula", "Driven by", "spindle speed¹·⁵", "Dynamics"})
     EXPECT_TRUE(panel_->details()->text().contains(QString::fromUtf8(word))) << word;
   picture("list");
@@ -123,6 +125,7 @@ TEST_F(EffectsPanelTest, ListsFiltersAndDraws) {
   // Every effect can be drawn, or says why not.
   for (const Effect& effect : panel_->listing().effects) {
     panel_->choose(effect.id);
+    settle();
     EXPECT_EQ(panel_->chosen(), effect.id);
     EXPECT_FALSE(panel_->picture()->empty()) << effect.id << panel_->picture()->accessibleDescription().toStdString();
   }
@@ -297,7 +300,9 @@ TEST_F(EffectsPanelTest, LoadEditRemoveSave) {
   ASSERT_EQ(panel_->listing().effects.size(), 2U);
   EXPECT_FALSE(panel_->builtIn()->isChecked());
   panel_->choose("bed.slope");
-  EXPECT_NEAR(panel_->picture()->largest(), 0.5, 1e-9);
+  settle();
+  ASSERT_FALSE(panel_->picture()->empty());
+  EXPECT_NEAR(panel_->picture()->shape()->largest, 0.5, 1e-9);
   picture("loaded");
   setChecked("bed.slope", false);
   // A new name goes with it into what is switched off.
@@ -384,13 +389,20 @@ TEST(EffectPicture, ShortAxesAndPolesAreDrawn) {
       "machine.json");
   EffectPicture picture;
   picture.resize(500, 300);
-  picture.show(own->effects()[0].effect, machine);
-  EXPECT_FALSE(picture.empty());
-  EXPECT_TRUE(picture.rotations());
-  EXPECT_GT(picture.largest(), 1.0);
-  EXPECT_LT(picture.largest(), 1e4);
+  const auto show = [&](std::size_t which) {
+    picture.show(own->effects()[which].effect, machine);
+    ASSERT_TRUE(QTest::qWaitFor([&] { return !picture.busy(); }, 10'000));
+  };
+  show(0);
+  ASSERT_FALSE(picture.empty());
+  EXPECT_TRUE(picture.shape()->rotations);
+  EXPECT_GT(picture.shape()->largest, 1.0);
+  EXPECT_LT(picture.shape()->largest, 1e4);
   EXPECT_FALSE(picture.grab().isNull());
-  picture.show(own->effects()[1].effect, machine);
+  const testing::TempFolder folder;
+  picture.exportTo(QString::fromStdString((folder / "shape.svg").string()));
+  EXPECT_NE(readFile(folder / "shape.svg").find("<svg"), std::string::npos);
+  show(1);
   EXPECT_TRUE(picture.empty());
 }
 
