@@ -1813,7 +1813,7 @@
         <translation>Die Maschine soll {:g} s laufen; zulässig: über 0.</translation>
     </message>
     <message>
-        <source>The machine stood and its temperatures held meanwhile: it is the instrument that drifts.</source>
+        <source>The machine was at rest at constant temperatures: the drift is that of the instrument.</source>
         <translation>Die Maschine stand, und ihre Temperaturen hielten sich inzwischen: es driftet das Messgerät.</translation>
     </message>
     <message>
@@ -4243,7 +4243,7 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>im Prüfbereich ist das Modell (rms {:.3g}) nicht besser als „{}“ (rms {:.3g})</translation>
     </message>
     <message>
-        <source>in {} of {} rows the inputs stand together as they never did in training (up to {:.1f} times beyond its reach); the interval is wider there.</source>
+        <source>in {} of {} rows the combination of inputs is outside that of the training (by a factor of up to {:.1f}); the interval is wider there.</source>
         <translation>in {} von {} Zeilen stehen die Eingänge zusammen wie nie im Training (bis zu {:.1f}-mal außerhalb seines Bereichs); dort ist das Intervall breiter.</translation>
     </message>
     <message>
@@ -4551,7 +4551,7 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>sie liegt, wo {} sein sollte, nicht {}: falsches Merkmal</translation>
     </message>
     <message>
-        <source>it misses by {:.1f} µm what all other touches say ({:.0f} times the touch noise); left out</source>
+        <source>it deviates by {:.1f} µm from all other touches ({:.0f} times the touch noise); excluded</source>
         <translation>sie verfehlt um {:.1f} µm, was alle anderen Antastungen sagen ({:.0f}-mal das Antastrauschen); ausgelassen</translation>
     </message>
     <message>
@@ -4583,11 +4583,11 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>das Zentrum seines Merkmals ist nicht bestimmbar</translation>
     </message>
     <message>
-        <source>its height is {:.0f} µm off what the {} other surface touches of {} say; left out</source>
+        <source>its height deviates by {:.0f} µm from the {} other surface touches of {}; excluded</source>
         <translation>ihre Höhe liegt {:.0f} µm neben dem, was die {} anderen Flächenantastungen von {} sagen; ausgelassen</translation>
     </message>
     <message>
-        <source>its height is {:.0f} µm off what the {} other surface touches say</source>
+        <source>its height deviates by {:.0f} µm from the {} other surface touches</source>
         <translation>ihre Höhe liegt {:.0f} µm neben dem, was die {} anderen Flächenantastungen sagen</translation>
     </message>
     <message>
@@ -5215,7 +5215,7 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>nichts ist vergleichbar: gleichnamige Punkte liegen woanders als zuvor; zulässig: derselbe Plan, an derselben Maschine erneut gemessen.</translation>
     </message>
     <message>
-        <source>nothing in the log says whether it stood</source>
+        <source>the log does not show whether it was at rest</source>
         <translation>nichts im Protokoll sagt, ob sie stand</translation>
     </message>
     <message>
@@ -9157,11 +9157,11 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Für Heidenhain (.COM, .CMA), Fanuc (Steigungsfehlerdaten) und die Durchhangkompensation von Siemens (CEC) werden keine Tabellen geschrieben: Öffentliche Unterlagen nennen das Vorzeichen ihrer Werte nicht. Die Tabellen nach ISO 230-1 enthalten, was die Werkzeuge des Maschinenherstellers dafür brauchen.</translation>
     </message>
     <message>
-        <source>{} measured {:+.1f} µm beside the prediction, far beyond its uncertainty: used if the next cycle says so too</source>
+        <source>{} measured {:+.1f} µm off the prediction, far beyond its uncertainty: used if the next cycle confirms it</source>
         <translation>{} {:+.1f} µm neben der Vorhersage gemessen, weit außerhalb ihrer Unsicherheit: wird verwendet, wenn der nächste Zyklus dasselbe sagt</translation>
     </message>
     <message>
-        <source>{} measured {:+.2f} beside the prediction, far beyond its uncertainty: used if the next measurement says so too</source>
+        <source>{} measured {:+.2f} off the prediction, far beyond its uncertainty: used if the next measurement confirms it</source>
         <translation>{} {:+.2f} neben der Vorhersage gemessen, weit außerhalb ihrer Unsicherheit: wird verwendet, wenn die nächste Messung dasselbe sagt</translation>
     </message>
     <message>
@@ -9305,7 +9305,7 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>{}, bereits benannt, würde es mit einem eigenen Verlauf ebenso erklären</translation>
     </message>
     <message>
-        <source>{} and {} moved together in training and part here: which of them causes what, the training cannot tell; let one move without the other there.</source>
+        <source>{} and {} are collinear in the training and separate here: their effects cannot be distinguished from the training; vary one without the other there.</source>
         <translation>{} und {} haben sich im Training gemeinsam bewegt und trennen sich hier: Welche davon was verursacht, sagt das Training nicht; lassen Sie dort einmal eine ohne die andere laufen.</translation>
     </message>
     <message>
@@ -10495,7 +10495,7 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Auftrag</translation>
     </message>
     <message>
-        <source>How far</source>
+        <source>Progress</source>
         <translation>Fortschritt</translation>
     </message>
     <message>
@@ -10503,7 +10503,7 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Aufträge</translation>
     </message>
     <message>
-        <source>Nothing runs.</source>
+        <source>No job is running.</source>
         <translation>Es läuft nichts.</translation>
     </message>
     <message>
@@ -10527,7 +10527,7 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Meldung</translation>
     </message>
     <message>
-        <source>Nothing has been said yet.</source>
+        <source>There are no messages yet.</source>
         <translation>Noch keine Meldungen.</translation>
     </message>
     <message>
@@ -11749,7 +11749,7 @@ einsatz</translation>
         <translation>Plan öffnen, „Starten“ drücken und bestätigen, was sich bewegen wird.</translation>
     </message>
     <message>
-        <source>What happened</source>
+        <source>Events</source>
         <translation>Ereignisse</translation>
     </message>
     <message>
@@ -19709,7 +19709,7 @@ einsatz</translation>
         <translation>Vergleich</translation>
     </message>
     <message>
-        <source>The model stands beside no model and a static regression after the identification.</source>
+        <source>After the identification the model is compared with no model and with a static regression.</source>
         <translation>Nach der Identifikation steht das Modell neben „ohne Modell“ und einer statischen Regression.</translation>
     </message>
     <message>

@@ -372,7 +372,7 @@ std::span<const char* const> spindrift::gui::core_formats::workflows() noexcept 
     QT_TRANSLATE_NOOP("core", "{} is taken for the ambient temperature by its name; --ambient names another."),
     QT_TRANSLATE_NOOP("core", "{} is there already; this one is kept aside."),
     QT_TRANSLATE_NOOP("core", "{} may be {}; allowed: the whole name of one column."),
-    QT_TRANSLATE_NOOP("core", "{} measured {:+.1f} µm beside the prediction, far beyond its uncertainty: used if the next cycle says so too"),
+    QT_TRANSLATE_NOOP("core", "{} measured {:+.1f} µm off the prediction, far beyond its uncertainty: used if the next cycle confirms it"),
     QT_TRANSLATE_NOOP("core", "{} minus {}"),
     QT_TRANSLATE_NOOP("core", "{} named, which is nested with it"),
     QT_TRANSLATE_NOOP("core", "{} of point {} is {:g} mm, the travel {:g} to {:g} mm"),
