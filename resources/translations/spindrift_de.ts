@@ -8503,10 +8503,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>({}, {:g} {} je {})</translation>
     </message>
     <message>
-        <source>, {:g} given: {}</source>
-        <translation>, {:g} angegeben: {}</translation>
-    </message>
-    <message>
         <source>--set &quot;{}&quot; is not allowed; allowed: NAME=NUMBER, for example EC0Y_urad=20.</source>
         <translation>--set „{}“ ist nicht zulässig; zulässig: NAME=NUMBER, zum Beispiel EC0Y_urad=20.</translation>
     </message>
@@ -8575,10 +8571,6 @@ endgültig fehlgeschlagen: {}</translation>
 {}{}, relative to {}</source>
         <translation>
 {}{}, bezogen auf {}</translation>
-    </message>
-    <message>
-        <source>answer &quot;{}&quot; {}; allowed: EFFECT[:DRIVER[:SIZE]], for example column.bending.a:column_difference:12.</source>
-        <translation>Antwort „{}“ {}; zulässig: EFFECT[:DRIVER[:SIZE]], zum Beispiel column.bending.a:column_difference:12.</translation>
     </message>
     <message>
         <source>as it lies</source>
@@ -9687,6 +9679,22 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>{}: found {} {}; allowed: {:g} to {:g}.</source>
         <translation>{}: gefunden {} {}; zulässig: {:g} bis {:g}.</translation>
+    </message>
+    <message>
+        <source>, {:g} {} given: {}</source>
+        <translation>, {:g} {} angegeben: {}</translation>
+    </message>
+    <message>
+        <source>&quot;{}&quot; is given a size in {}; allowed: {}.</source>
+        <translation>„{}“ hat eine Größe in {}; zulässig: {}.</translation>
+    </message>
+    <message>
+        <source>answer &quot;{}&quot; {}; allowed: EFFECT[:DRIVER[:SIZE]], for example column.bending.a:column_difference:12um.</source>
+        <translation>Antwort „{}“ {}; zulässig: EFFECT[:DRIVER[:SIZE]], zum Beispiel column.bending.a:column_difference:12um.</translation>
+    </message>
+    <message>
+        <source>has a size without the unit µm or µrad</source>
+        <translation>hat eine Größe ohne die Einheit µm oder µrad</translation>
     </message>
 </context>
 <context>
