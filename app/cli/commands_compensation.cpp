@@ -122,7 +122,8 @@ void addCompensationCommands(CLI::App& app, CommandLine& line) {
       ->type_name("X,Y,Z");
   command
       ->add_option("--out", a->out,
-                   "Folder for the files: corrections at points and on a grid, ISO 230-1 components, LinuxCNC")
+                   "Folder for the files: corrections at points and on a grid, ISO 230-1 components, tables for "
+                   "LinuxCNC and Siemens")
       ->type_name("DIR");
   addVerify(app, line);
 }

@@ -271,7 +271,7 @@ void addPlantGroup(CLI::App& app, CommandLine& line) {
   }
   {
     auto [command, a] =
-        add("trend", "One parameter of a machine over months: control limits, and changes that are more than chance",
+        add("trend", "One parameter of a machine over months: control limits, and statistically significant changes",
             [](const PlantArguments& args, JobContext&) { return trend(args); });
     command->add_option("MACHINE", a->machine, "Machine")->required();
     command->add_option("PARAMETER", a->parameter,
@@ -583,8 +583,8 @@ void addBatchGroup(CLI::App& app, CommandLine& line) {
   CLI::App* group = addCommand(app, line, "batch",
                                "Evaluate, fit, identify, search, simulate or study many campaigns or seeds "
                                "(spindrift-batch plan): as processes on "
-                               "this computer or through Slurm; what is done is kept in the plant store. Exit status "
-                               "1: something failed or is open",
+                               "this computer or through Slurm; results are kept in the plant store. Exit status "
+                               "1: an item failed or is still open",
                                [started](JobContext& job) { return startBatch(*started, job); });
   const CLI::App* const whole = group;
   group->callback([&line, whole, started] {

@@ -59,14 +59,14 @@ Report reportOf(const ReportArguments& arguments, JobContext& job) {
 bool isPdf(const std::string& file) {
   const std::string ending = std::filesystem::path(file).extension().string();
   if (ending != ".pdf" && ending != ".html" && ending != ".htm")
-    throw InputError({file, ""}, "is not a name of a report; allowed: a name that ends in .html or .pdf.");
+    throw InputError({file, ""}, "is neither HTML nor PDF by its ending; allowed: a name that ends in .html or .pdf.");
   return ending == ".pdf";
 }
 
 CommandResult writeReport(const Report& report, const std::string& file, JobContext& job) {
   const std::string bytes = isPdf(file) ? pdfOf(report, job).bytes : htmlOf(report);
   writeFileAtomically(file, bytes);
-  return {{{"report", file}, {"bytes", bytes.size()}}, fmt::format("report written to {}\n", file), Done};
+  return {{{"report", file}, {"bytes", bytes.size()}}, fmt::format("written: {}\n", file), Done};
 }
 
 CommandResult listFiles(const std::string& id) {
@@ -105,7 +105,7 @@ CommandResult reportInSession(const ReportArguments& a, bool pdf, JobContext& jo
   source.tasks().run("report", job, !std::filesystem::is_regular_file(written()));
   const std::string bytes = readFile(written());
   writeFileAtomically(a.out, bytes);
-  return {{{"report", a.out}, {"bytes", bytes.size()}}, fmt::format("report written to {}\n", a.out), Done};
+  return {{{"report", a.out}, {"bytes", bytes.size()}}, fmt::format("written: {}\n", a.out), Done};
 }
 
 }  // namespace

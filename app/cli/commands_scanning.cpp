@@ -56,7 +56,9 @@ void addRegister(CLI::App& app, CommandLine& line) {
       ->capture_default_str();
   command
       ->add_option("--method", arguments->method,
-                   "ours: smooth surface; ndt-icp: as in the paper; gicp: generalised ICP (the last two with PCL)")
+                   "ours: cells of the source onto a bicubic spline of the target; ndt-icp: normal distributions "
+                   "transform, then iterative "
+                   "closest point, as in the reference publication; gicp: generalised ICP (the last two with PCL)")
       ->check(CLI::IsMember({"ours", "ndt-icp", "gicp"}))
       ->capture_default_str();
 }
@@ -111,12 +113,10 @@ void addCalibrate(CLI::App& app, CommandLine& line) {
       ->type_name("X,Y,Z,R")
       ->required();
   command
-      ->add_option("--alpha", arguments->alpha,
-                   "Value known from another calibration: angle,standard uncertainty (rad)")
+      ->add_option("--alpha", arguments->alpha, "alpha from another calibration, with its standard uncertainty (rad)")
       ->type_name("V,S");
   command
-      ->add_option("--gamma", arguments->gamma,
-                   "Value known from another calibration: angle,standard uncertainty (rad)")
+      ->add_option("--gamma", arguments->gamma, "gamma from another calibration, with its standard uncertainty (rad)")
       ->type_name("V,S");
   command->add_option("--scan-model", arguments->scan_model, "rigid or push_broom, see register")
       ->check(CLI::IsMember({"rigid", "push_broom"}))
@@ -185,10 +185,10 @@ void addDesign(CLI::App& app, CommandLine& line) {
   ArtefactSurface& s = arguments->surface;
   command->add_option("--size-x", s.size_mm.x(), "Size across the scan, mm")->capture_default_str();
   command->add_option("--size-y", s.size_mm.y(), "Size along the scan, mm")->capture_default_str();
-  command->add_option("--ax", s.amplitude_x_mm, "Amplitude, mm")->capture_default_str();
-  command->add_option("--kx", s.wave_number_x_per_mm, "Wave number, rad/mm")->capture_default_str();
-  command->add_option("--ay", s.amplitude_y_mm, "Amplitude, mm")->capture_default_str();
-  command->add_option("--ky", s.wave_number_y_per_mm, "Wave number, rad/mm")->capture_default_str();
+  command->add_option("--ax", s.amplitude_x_mm, "Amplitude of the wave along X, mm")->capture_default_str();
+  command->add_option("--kx", s.wave_number_x_per_mm, "Wave number along X, rad/mm")->capture_default_str();
+  command->add_option("--ay", s.amplitude_y_mm, "Amplitude of the wave along Y, mm")->capture_default_str();
+  command->add_option("--ky", s.wave_number_y_per_mm, "Wave number along Y, rad/mm")->capture_default_str();
   command->add_option("--axy", s.amplitude_xy_mm, "Amplitude of the product term, mm")->capture_default_str();
   command->add_option("--bump", arguments->bumps, "Round bump x,y,radius,height (mm); may be given several times")
       ->type_name("X,Y,R,H");

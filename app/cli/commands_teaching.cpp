@@ -5,6 +5,8 @@
 
 #include "app/cli/command.h"
 #include "core/base/error.h"
+#include "core/base/text.h"
+#include "core/base/unit_text.h"
 #include "core/machine/driver_words.h"
 #include "core/workflows/discrepancy_workflow.h"
 #include "core/workflows/exercise.h"
@@ -78,9 +80,12 @@ CommandResult continueExercise(const ExerciseArguments& arguments, JobContext& j
   if (!answered && arguments.hints == 0) {
     nlohmann::json choices = nlohmann::json::array();
     for (const ExerciseChoice& choice : exerciseChoices(arguments.campaign)) {
-      choices.push_back(
-          {{"id", choice.id}, {"title", choice.title}, {"family", choice.family}, {"drivers", choice.drivers}});
-      result.summary += fmt::format("{:<26} {}\n", choice.id, choice.title);
+      choices.push_back({{"id", choice.id},
+                         {"title", choice.title},
+                         {"family", choice.family},
+                         {"drivers", choice.drivers},
+                         {"units", choice.units}});
+      result.summary += fmt::format("{:<26} {} ({})\n", choice.id, choice.title, printedUnit(joinedList(choice.units, "or")));
       for (const std::string& driver : choice.drivers)
         result.summary += fmt::format("{:>30}{}  {}\n", "", driver, driversInWords(driver));
     }
@@ -161,8 +166,8 @@ void addTeachingCommands(CLI::App& app, CommandLine& line) {
       ->capture_default_str();
   exercise
       ->add_option("--answer", arguments->answers,
-                   "A hidden effect, its driver and its size (largest change at one point, µm or µrad); may be "
-                   "repeated. Exit status 1 if not all are named")
+                   "A hidden effect, its driver and its size (largest change at one point, such as 12µm or 30µrad); "
+                   "may be repeated. Exit status 1 if not all are named")
       ->allow_extra_args(false)
       ->type_name("EFFECT:DRIVER:SIZE");
   exercise

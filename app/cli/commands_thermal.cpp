@@ -165,9 +165,7 @@ void addTrack(CLI::App& parent, CommandLine& line) {
                    "Standard uncertainty of one measurement in the output's unit")
       ->check(positiveNumber())
       ->capture_default_str();
-  command
-      ->add_option("--gain-bound", a->request.gain_bound,
-                   "Largest gain of --update gain (0: none, as printed in the paper)")
+  command->add_option("--gain-bound", a->request.gain_bound, "Upper limit of the gain of --update gain; 0: no limit")
       ->check(nonNegativeNumber());
   command->add_option("--context", a->context,
                       "Columns that the gain may depend on, such as pos_z_mm (kalman only), separated by commas");

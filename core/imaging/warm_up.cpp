@@ -261,14 +261,12 @@ WarmUpResult judgeWarmUp(const ObservationSet& observations, const std::string& 
   }
   if (at_work.empty() && warming.empty() && motion_logged) {
     result.cause = WarmUpCause::Instrument;
-    result.cause_reason =
-        "The machine stood and its temperatures held meanwhile: it is the instrument that drifts, and its drift would "
-        "appear in every deviation as a motion of the machine.";
+    result.cause_reason = "The machine was at rest at constant temperatures: the drift is that of the instrument.";
     return result;
   }
   constexpr std::size_t most_named = 3;
   if (warming.size() > most_named) warming.resize(most_named);
-  std::string why = "nothing in the log says whether it stood";
+  std::string why = "the log does not show whether it was at rest";
   if (!at_work.empty() && !warming.empty()) {
     why = fmt::format("it was at work ({}), {} changed", joinedList(at_work), joinedList(warming));
   } else if (!at_work.empty()) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One parameter of a machine over months: control limits, and the changes that are more than chance.
+// One parameter of a machine over months: control limits, and statistically significant changes.
 //
 // Model: y_i = level(t_i) + b_i + e_i, e_i normal with the stated standard uncertainty u_i of the evaluation, b_i the
 // scatter from campaign to campaign with the unknown variance tau^2 (set-up, room). tau^2 from successive differences,

@@ -73,11 +73,11 @@ class Assembler {
       for (std::size_t r = 0; r < result_.row_touch.size(); ++r) {
         if (result_.fit.used[r]) continue;
         const double error_um = result_.fit.residual_mm[r] * um_per_mm;
-        result_.rejected.push_back({result_.row_touch[r],
-                                    fmt::format("it misses by {:.1f} µm what all other touches say ({:.0f} times the "
-                                                "touch noise); left out",
-                                                error_um, std::abs(result_.fit.studentised[r])),
-                                    error_um});
+        result_.rejected.push_back(
+            {result_.row_touch[r],
+             fmt::format("it deviates by {:.1f} µm from all other touches ({:.0f} times the touch noise); excluded",
+                         error_um, std::abs(result_.fit.studentised[r])),
+             error_um});
         next[result_.row_touch[r]] = true;
         changed = true;
       }

@@ -268,7 +268,7 @@ void LiveTouches::judgeSurface(const Touch& last) {
     live.surface_judged = live.surface_judged || verdicts[k].judged;
     // What is in the campaign already is judged by the check of all touches.
     if (!verdicts[k].suspect || live.given_out || live.confirmed) continue;
-    reject(of[k], fmt::format("its height is {:.0f} µm off what the {} other surface touches say", verdicts[k].off_um,
+    reject(of[k], fmt::format("its height deviates by {:.0f} µm from the {} other surface touches", verdicts[k].off_um,
                               verdicts[k].others));
     if (first) forgetFirst(live.touch);
   }

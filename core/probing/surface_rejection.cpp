@@ -61,7 +61,7 @@ std::vector<RejectedTouch> contradictedSurfaces(const TouchList& list, const std
     others.erase(std::find(others.begin(), others.end(), j.verdict.off_um));
     if (!others.empty() && std::abs(j.verdict.off_um - median(others)) < 0.5 * SurfaceOptions().floor_um) continue;
     out.push_back({j.touch,
-                   fmt::format("its height is {:.0f} µm off what the {} other surface touches of {} say; left out",
+                   fmt::format("its height deviates by {:.0f} µm from the {} other surface touches of {}; excluded",
                                j.verdict.off_um, j.verdict.others, t.cycle),
                    j.verdict.off_um});
   }

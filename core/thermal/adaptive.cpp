@@ -254,8 +254,8 @@ AdaptiveResult Replay::run(std::vector<LiveModel> models) {
         forget(e, row);
         demanded = time[row] + options_.shortest_interval_s;
         result.events.push_back({time[row], AdaptiveEventKind::Refused,
-                                 fmt::format("{} measured {:+.2f} beside the prediction, far beyond its uncertainty: "
-                                             "used if the next measurement says so too",
+                                 fmt::format("{} measured {:+.2f} off the prediction, far beyond its uncertainty: used "
+                                             "if the next measurement confirms it",
                                              errors_[e].name, difference)});
         continue;
       }

@@ -237,15 +237,15 @@ std::vector<char> ThermalModel::outsideTraining(const std::vector<double>& novel
   if (marked > 0 && notes != nullptr) {
     const auto furthest = std::max_element(novelty.begin(), novelty.end());
     notes->push_back(
-        fmt::format("in {} of {} rows the inputs stand together as they never did in training (up to {:.1f} times "
-                    "beyond its reach); the interval is wider there.",
+        fmt::format("in {} of {} rows the combination of inputs is outside that of the training (by a factor of up to "
+                    "{:.1f}); the interval is wider there.",
                     marked, count, *furthest));
     const std::vector<std::string> apart =
         outputs[which].pattern->apart(series, static_cast<std::size_t>(furthest - novelty.begin()));
     if (!apart.empty()) {
       notes->push_back(
-          fmt::format("{} and {} moved together in training and part here: which of them causes what, the training "
-                      "cannot tell; let one move without the other there.",
+          fmt::format("{} and {} are collinear in the training and separate here: their effects cannot be "
+                      "distinguished from the training; vary one without the other there.",
                       apart[0], apart[1]));
     }
   }

@@ -5,6 +5,7 @@
 
 #include <Eigen/QR>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <set>
@@ -141,8 +142,23 @@ std::vector<std::string> acceptedDrivers(const ExerciseSignal& signal, const Eff
   return out;
 }
 
-/// The component with the largest change, and that change.
-void measureSize(const std::vector<Observation>& rows, const std::vector<double>& values, HiddenEffect& hidden) {
+/// The units of the components that an effect changes where something is observed.
+std::vector<std::string> sizeUnits(const Effect& effect, const std::vector<Observation>& rows) {
+  std::set<std::string> out;
+  for (const Observation& row : rows) {
+    std::string unit(unitOf(row.component));
+    if (out.contains(unit)) continue;
+    const DeviationQuery query = DeviationQuery::of(row);
+    if (std::any_of(effect.shape.begin(), effect.shape.end(),
+                    [&](const ShapeColumn& column) { return column.value(query, row.component) != 0.0; }))
+      out.insert(std::move(unit));
+  }
+  return {out.begin(), out.end()};
+}
+
+/// The largest change as displacement and as rotation; first that which is larger in units of its sigma.
+void measureSizes(const std::vector<Observation>& rows, const std::vector<double>& values, const StudyCase& made,
+                  HiddenEffect& hidden) {
   struct Span {
     double low = INFINITY, high = -INFINITY, sigma = 1.0;
   };
@@ -153,14 +169,25 @@ void measureSize(const std::vector<Observation>& rows, const std::vector<double>
     span.high = std::max(span.high, values[i]);
     span.sigma = rows[i].sigma;
   }
-  double most = 0.0;
+  std::array<double, 2> most{};  // of displacement, of rotation
+  std::array<EffectSize, 2> sizes{EffectSize{Component::EX}, EffectSize{Component::EA}};
   for (const auto& [series, span] : spans) {
+    const std::size_t kind = isRotation(series.second) ? 1 : 0;
     const double relative = (span.high - span.low) / span.sigma;
-    if (relative <= most) continue;
-    most = relative;
-    hidden.component = series.second;
-    hidden.size = span.high - span.low;
+    if (relative <= most[kind]) continue;
+    most[kind] = relative;
+    sizes[kind].component = series.second;
+    sizes[kind].value = span.high - span.low;
   }
+  for (const std::size_t kind : {0U, 1U}) {
+    double sigma = kind == 1 ? made.scenario.instrument.sigma_urad : made.scenario.instrument.sigma_um;
+    if (made.conditions.common) sigma *= std::sqrt(1.0 + common_shift * common_shift);
+    sizes[kind].uncertainty = std::sqrt(2.0 * sigma * sigma + std::pow(simulation_error * sizes[kind].value, 2));
+  }
+  const std::size_t first = most[1] > most[0] ? 1 : 0;
+  hidden.sizes = {sizes[first]};
+  const EffectSize& other = sizes[1 - first];
+  if (other.value > 2.0 * other.uncertainty) hidden.sizes.push_back(other);
 }
 
 }  // namespace
@@ -245,15 +272,12 @@ ExerciseKey exerciseKey(const Exercise& exercise, JobContext& job) {
   const EffectsAnswer known = listEffects(campaign, nullptr, nullptr);
   ExerciseKey key;
   key.exercise = exercise;
+  for (const Effect& effect : known.effects) key.units[effect.id] = sizeUnits(effect, rows);
   for (const std::string& id : made.hidden) {
     HiddenEffect hidden;
     hidden.id = id;
     const std::vector<double>& values = study.campaign.truth.signals.at(id);
-    measureSize(rows, values, hidden);
-    double sigma =
-        isRotation(hidden.component) ? made.scenario.instrument.sigma_urad : made.scenario.instrument.sigma_um;
-    if (made.conditions.common) sigma *= std::sqrt(1.0 + common_shift * common_shift);
-    hidden.size_uncertainty = std::sqrt(2.0 * sigma * sigma + std::pow(simulation_error * hidden.size, 2));
+    measureSizes(rows, values, made, hidden);
     for (const Effect& effect : known.effects) {
       if (std::find(effect.contains.begin(), effect.contains.end(), id) != effect.contains.end())
         hidden.alike.push_back(effect.id);
@@ -267,32 +291,51 @@ ExerciseKey exerciseKey(const Exercise& exercise, JobContext& job) {
 }
 
 std::vector<ExerciseChoice> exerciseChoices(const std::filesystem::path& campaign) {
-  EffectsRequest request;
-  request.campaign = campaign;
+  const Campaign read = Campaign::read(campaign);
+  const std::vector<Observation> rows = read.observations ? read.observations->rows : std::vector<Observation>{};
   std::vector<ExerciseChoice> out;
-  for (const Effect& effect : listEffects(request).effects)
-    out.push_back({effect.id, titleOf(effect), effect.id.substr(0, effect.id.find('.')), driverTexts(effect)});
+  for (const Effect& effect : listEffects(read, nullptr, nullptr).effects)
+    out.push_back({effect.id, titleOf(effect), effect.id.substr(0, effect.id.find('.')), driverTexts(effect),
+                   sizeUnits(effect, rows)});
   std::stable_sort(out.begin(), out.end(),
                    [](const ExerciseChoice& a, const ExerciseChoice& b) { return a.family < b.family; });
   return out;
 }
 
 NamedEffect NamedEffect::parse(const std::string& text) {
-  const std::vector<std::string> parts = splitList(text, ':');
+  std::vector<std::string> parts(1);  // the driver between two colons may be empty
+  for (const char c : text) {
+    if (c == ':') {
+      parts.emplace_back();
+    } else {
+      parts.back() += c;
+    }
+  }
+  for (std::string& part : parts) part = std::string(trimmed(part));
   NamedEffect out;
   const auto reject = [&](const char* why) {
     throw InputError(fmt::format(
-        "answer \"{}\" {}; allowed: EFFECT[:DRIVER[:SIZE]], for example column.bending.a:column_difference:12.", text,
+        "answer \"{}\" {}; allowed: EFFECT[:DRIVER[:SIZE]], for example column.bending.a:column_difference:12um.", text,
         why));
   };
-  if (parts.empty() || parts[0].empty()) reject("names no effect");
+  if (parts[0].empty()) reject("names no effect");
   if (parts.size() > 3) reject("has more than three parts");
   out.id = parts[0];
   if (parts.size() > 1) out.driver = parts[1];
   if (parts.size() > 2 && !parts[2].empty()) {
-    double size = 0.0;
-    if (!parseNumber(parts[2], size) || !(size >= 0.0)) reject("has a size that is not a number from 0 on");
-    out.size = size;
+    NamedSize size;
+    std::string_view number = parts[2];
+    for (const auto& [ending, unit] :
+         {std::pair<std::string_view, const char*>{"urad", "urad"}, {"µrad", "urad"}, {"um", "um"}, {"µm", "um"}}) {
+      if (!number.ends_with(ending)) continue;
+      number.remove_suffix(ending.size());
+      size.unit = unit;
+      break;
+    }
+    while (number.ends_with(' ')) number.remove_suffix(1);
+    if (size.unit.empty()) reject("has a size without the unit µm or µrad");
+    if (!parseNumber(number, size.value) || !(size.value >= 0.0)) reject("has a size that is not a number from 0 on");
+    out.size = std::move(size);
   }
   return out;
 }
@@ -301,8 +344,15 @@ ExerciseScore scoreExercise(const ExerciseKey& key, const ExerciseAnswer& answer
   if (answer.hints < 0 || answer.hints > exercise_hints)
     throw InputError(fmt::format("{} hints; allowed: 0 to {}.", answer.hints, exercise_hints));
   std::set<std::string> seen;
-  for (const NamedEffect& named : answer.named)
+  for (const NamedEffect& named : answer.named) {
     if (!seen.insert(named.id).second) throw InputError(fmt::format("\"{}\" is named twice; allowed: once.", named.id));
+    const auto units = key.units.find(named.id);
+    if (named.size && units != key.units.end() &&
+        std::find(units->second.begin(), units->second.end(), named.size->unit) == units->second.end())
+      throw InputError(fmt::format("\"{}\" is given a size in {}; allowed: {}.", named.id,
+                                   printedUnit(named.size->unit),
+                                   units->second.empty() ? "none" : printedUnit(joinedList(units->second, "or"))));
+  }
   ExerciseScore score;
   score.answer = answer;
   const double share = 100.0 / static_cast<double>(std::max<std::size_t>(key.hidden.size(), 1));
@@ -318,7 +368,8 @@ ExerciseScore scoreExercise(const ExerciseKey& key, const ExerciseAnswer& answer
       line.driver_right = hidden.drivers.empty() ||
                           std::find(hidden.drivers.begin(), hidden.drivers.end(), named.driver) != hidden.drivers.end();
       line.size_named = named.size;
-      line.size_right = named.size && std::abs(*named.size - hidden.size) <= 2.0 * hidden.size_uncertainty;
+      line.size_right = named.size && named.size->unit == unitOf(line.size().component) &&
+                        std::abs(named.size->value - line.size().value) <= 2.0 * line.size().uncertainty;
       line.marks =
           share * (effect_part + (line.driver_right ? detail_part : 0.0) + (line.size_right ? detail_part : 0.0));
     }
@@ -349,6 +400,12 @@ ExerciseScore scoreExercise(const ExerciseKey& key, const ExerciseAnswer& answer
   return score;
 }
 
+const EffectSize& ExerciseScore::Line::size() const {
+  for (const EffectSize& size : hidden.sizes)
+    if (size_named && size_named->unit == unitOf(size.component)) return size;
+  return hidden.sizes.front();
+}
+
 bool ExerciseScore::allNamed() const {
   return std::all_of(lines.begin(), lines.end(), [](const Line& line) { return line.exact; });
 }
@@ -361,12 +418,13 @@ nlohmann::json ExerciseScore::json() const {
                        {"exact", line.exact},
                        {"drivers", line.hidden.drivers},
                        {"driver_right", line.driver_right},
-                       {"component", toString(line.hidden.component)},
-                       {"size", line.hidden.size},
-                       {"size_uncertainty", line.hidden.size_uncertainty},
-                       {"size_named", line.size_named ? nlohmann::json(*line.size_named) : nlohmann::json()},
+                       {"component", toString(line.size().component)},
+                       {"size", line.size().value},
+                       {"size_uncertainty", line.size().uncertainty},
+                       {"size_named", line.size_named ? nlohmann::json(line.size_named->value) : nlohmann::json()},
+                       {"size_named_unit", line.size_named ? nlohmann::json(line.size_named->unit) : nlohmann::json()},
                        {"size_right", line.size_right},
-                       {"unit", unitOf(line.hidden.component)},
+                       {"unit", unitOf(line.size().component)},
                        {"marks", line.marks}});
   }
   return {{"score", total},
@@ -379,7 +437,6 @@ nlohmann::json ExerciseScore::json() const {
 std::string ExerciseScore::text() const {
   std::string out;
   for (const Line& line : lines) {
-    const std::string unit = printedUnit(unitOf(line.hidden.component));
     out +=
         fmt::format("{}: {}", effectTitle(line.hidden.id),
                     line.exact           ? "named"
@@ -389,9 +446,11 @@ std::string ExerciseScore::text() const {
       if (!line.hidden.drivers.empty())
         out += line.driver_right ? "; driver right"
                                  : fmt::format("; driven by {}", driversInWords(joinedList(line.hidden.drivers, "or")));
-      out += fmt::format("; size {:.1f} ± {:.1f} {} in {}", line.hidden.size, line.hidden.size_uncertainty, unit,
-                         toString(line.hidden.component));
-      if (line.size_named) out += fmt::format(", {:g} given: {}", *line.size_named, line.size_right ? "right" : "off");
+      out += fmt::format("; size {:.1f} ± {:.1f} {} in {}", line.size().value, line.size().uncertainty,
+                         printedUnit(unitOf(line.size().component)), toString(line.size().component));
+      if (line.size_named)
+        out += fmt::format(", {:g} {} given: {}", line.size_named->value, printedUnit(line.size_named->unit),
+                           line.size_right ? "right" : "off");
     }
     out += "\n";
   }
@@ -404,7 +463,7 @@ std::vector<std::string> exerciseHint(const ExerciseKey& key, int number) {
     throw InputError(fmt::format("hint {}; allowed: 1 to {}.", number, exercise_hints));
   std::set<std::string> out;
   for (const HiddenEffect& hidden : key.hidden) {
-    if (number == 1) out.emplace(toString(hidden.component));
+    if (number == 1) out.emplace(toString(hidden.sizes.front().component));
     if (number == 2) out.insert(hidden.drivers.empty() ? "none" : hidden.drivers.front());
     if (number == 3) out.insert(hidden.id.substr(0, hidden.id.find('.')));
   }

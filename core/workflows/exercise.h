@@ -13,12 +13,14 @@
 // name that is not hidden costs a quarter of a share, a hint 10, and who ran the search first gets half.
 //   driver: the driver given explains the noise-free signal nearly as well as the best of the catalogue does (R^2 of a
 //           least-squares fit through one lag at least 0.9 of the best); right for effects that no log drives.
-//   size:   largest change of the main component between two states at one point, noise-free, um or urad; right within
-//           twice u, u^2 = 2 sigma^2 (two readings of the real noise) + (0.1 size)^2 (the simulation is a little off).
+//   size:   largest change between two states at one point, noise-free, as displacement (um) or as rotation (urad); an
+//           effect that changes both may be answered in either. Right within twice u, u^2 = 2 sigma^2 (two readings of
+//           the real noise) + (0.1 size)^2 (the simulation is a little off).
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -53,19 +55,28 @@ struct Exercise {
 /// Writes the campaign and exercise.json. Throws InputError if the folder is there and not empty.
 void writeExercise(const Exercise& exercise, const std::filesystem::path& folder, JobContext& job);
 
+/// Largest change of one component between two states at one point, noise-free.
+struct EffectSize {
+  Component component = Component::EX;
+  double value = 0.0;        ///< um or urad
+  double uncertainty = 0.0;  ///< u above
+};
+
 /// One hidden effect with what counts as right.
 struct HiddenEffect {
   std::string id;
-  std::vector<std::string> drivers;     ///< accepted, as driverText writes them; empty: nothing in the log drives it
-  std::vector<std::string> alike;       ///< ids that hold it or that it holds
-  Component component = Component::EX;  ///< in which it is largest
-  double size = 0.0;                    ///< um or urad
-  double size_uncertainty = 0.0;        ///< u above
+  std::vector<std::string> drivers;  ///< accepted, as driverText writes them; empty: nothing in the log drives it
+  std::vector<std::string> alike;    ///< ids that hold it or that it holds
+  /// First that which stands out most of the noise; then that of the other kind (displacement, rotation), where it is
+  /// larger than 2 u.
+  std::vector<EffectSize> sizes;
 };
 
 struct ExerciseKey {
   Exercise exercise;
   std::vector<HiddenEffect> hidden;
+  /// By id of an effect that can be named: the units that its size may have ("um", "urad").
+  std::map<std::string, std::vector<std::string>> units;
 };
 /// Runs the virtual machine again.
 [[nodiscard]] ExerciseKey exerciseKey(const Exercise& exercise, JobContext& job);
@@ -76,16 +87,23 @@ struct ExerciseChoice {
   std::string title;
   std::string family;                ///< "ball_screw"
   std::vector<std::string> drivers;  ///< as the log has them, inputs that act together joined by " + "
+  std::vector<std::string> units;    ///< "um", "urad": what it changes where the campaign observes
 };
 /// Everything that the machine and the log of the campaign allow, family by family; says nothing of what is hidden.
 [[nodiscard]] std::vector<ExerciseChoice> exerciseChoices(const std::filesystem::path& campaign);
+
+/// A size as a learner gives it.
+struct NamedSize {
+  double value = 0.0;
+  std::string unit;  ///< "um" or "urad"
+};
 
 /// What a learner says. A driver may be left out, a size as well.
 struct NamedEffect {
   std::string id;
   std::string driver;
-  std::optional<double> size;  ///< um or urad
-  /// "column.bending.a:column_difference:12.5". Throws InputError.
+  std::optional<NamedSize> size;
+  /// "column.bending.a:column_difference:12.5um". Throws InputError.
   [[nodiscard]] static NamedEffect parse(const std::string& text);
 };
 
@@ -102,8 +120,10 @@ struct ExerciseScore {
     bool exact = false;
     bool driver_right = false;
     bool size_right = false;
-    std::optional<double> size_named;
+    std::optional<NamedSize> size_named;
     double marks = 0.0;
+    /// What the size is held against: of the unit that was given, else the first.
+    [[nodiscard]] const EffectSize& size() const;
   };
   std::vector<Line> lines;         ///< one for each hidden effect
   std::vector<std::string> wrong;  ///< names that are not hidden
@@ -114,7 +134,8 @@ struct ExerciseScore {
   [[nodiscard]] nlohmann::json json() const;
   [[nodiscard]] std::string text() const;
 };
-/// Throws InputError for an id that stands twice, or hints that there are not.
+/// Throws InputError for an id that stands twice, a size in a unit that the effect named cannot have, or hints that
+/// there are not.
 [[nodiscard]] ExerciseScore scoreExercise(const ExerciseKey& key, const ExerciseAnswer& answer);
 
 inline constexpr int exercise_hints = 3;

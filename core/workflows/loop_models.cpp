@@ -165,10 +165,9 @@ void LoopModels::judge(int axis, const LoopReading& told, double measured_um) {
   }
   const double off_um = measured_um - each.filter.value(told.by_model_um);
   if (!each.filter.measure(measured_um, told.by_model_um, {}, modelSigma(each))) {
-    say_(
-        fmt::format("{} measured {:+.1f} µm beside the prediction, far beyond its uncertainty: used if the next cycle "
-                    "says so too",
-                    "XYZ"[axis], off_um));
+    say_(fmt::format(
+        "{} measured {:+.1f} µm off the prediction, far beyond its uncertainty: used if the next cycle confirms it",
+        "XYZ"[axis], off_um));
     return;
   }
   each.told = each.features;

@@ -4239,10 +4239,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>im Prüfbereich ist das Modell (rms {:.3g}) nicht besser als „{}“ (rms {:.3g})</translation>
     </message>
     <message>
-        <source>in {} of {} rows the inputs stand together as they never did in training (up to {:.1f} times beyond its reach); the interval is wider there.</source>
-        <translation>in {} von {} Zeilen stehen die Eingänge zusammen wie nie im Training (bis zu {:.1f}-mal außerhalb seines Bereichs); dort ist das Intervall breiter.</translation>
-    </message>
-    <message>
         <source>incremental positions or inches are not allowed</source>
         <translation>Kettenmaße oder Zoll sind nicht zulässig</translation>
     </message>
@@ -4547,10 +4543,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>sie liegt, wo {} sein sollte, nicht {}: falsches Merkmal</translation>
     </message>
     <message>
-        <source>it misses by {:.1f} µm what all other touches say ({:.0f} times the touch noise); left out</source>
-        <translation>sie verfehlt um {:.1f} µm, was alle anderen Antastungen sagen ({:.0f}-mal das Antastrauschen); ausgelassen</translation>
-    </message>
-    <message>
         <source>it moved by {:.0f} µm since {}, more than thermal drift explains</source>
         <translation>sie hat sich seit {1} µm {0:.0f} µm verlagert, mehr als thermische Drift erklärt</translation>
     </message>
@@ -4577,14 +4569,6 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>the centre of its feature cannot be determined</source>
         <translation>das Zentrum seines Merkmals ist nicht bestimmbar</translation>
-    </message>
-    <message>
-        <source>its height is {:.0f} µm off what the {} other surface touches of {} say; left out</source>
-        <translation>ihre Höhe liegt {:.0f} µm neben dem, was die {} anderen Flächenantastungen von {} sagen; ausgelassen</translation>
-    </message>
-    <message>
-        <source>its height is {:.0f} µm off what the {} other surface touches say</source>
-        <translation>ihre Höhe liegt {:.0f} µm neben dem, was die {} anderen Flächenantastungen sagen</translation>
     </message>
     <message>
         <source>its median is {:.1f}, which looks like kelvin although the name says degC; allowed: degC, or rename the column to end in _K, or give --temperature-unit K.</source>
@@ -5201,10 +5185,6 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>nothing can be compared: the points of the same name are elsewhere than before; allowed: the same plan measured again on the same machine.</source>
         <translation>nichts ist vergleichbar: gleichnamige Punkte liegen woanders als zuvor; zulässig: derselbe Plan, an derselben Maschine erneut gemessen.</translation>
-    </message>
-    <message>
-        <source>nothing in the log says whether it stood</source>
-        <translation>nichts im Protokoll sagt, ob sie stand</translation>
     </message>
     <message>
         <source>nothing is added to the simulation</source>
@@ -8479,10 +8459,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>({}, {:g} {} je {})</translation>
     </message>
     <message>
-        <source>, {:g} given: {}</source>
-        <translation>, {:g} angegeben: {}</translation>
-    </message>
-    <message>
         <source>--set &quot;{}&quot; is not allowed; allowed: NAME=NUMBER, for example EC0Y_urad=20.</source>
         <translation>--set „{}“ ist nicht zulässig; zulässig: NAME=NUMBER, zum Beispiel EC0Y_urad=20.</translation>
     </message>
@@ -8551,10 +8527,6 @@ endgültig fehlgeschlagen: {}</translation>
 {}{}, relative to {}</source>
         <translation>
 {}{}, bezogen auf {}</translation>
-    </message>
-    <message>
-        <source>answer &quot;{}&quot; {}; allowed: EFFECT[:DRIVER[:SIZE]], for example column.bending.a:column_difference:12.</source>
-        <translation>Antwort „{}“ {}; zulässig: EFFECT[:DRIVER[:SIZE]], zum Beispiel column.bending.a:column_difference:12.</translation>
     </message>
     <message>
         <source>as it lies</source>
@@ -9133,14 +9105,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Für Heidenhain (.COM, .CMA), Fanuc (Steigungsfehlerdaten) und die Durchhangkompensation von Siemens (CEC) werden keine Tabellen geschrieben: Öffentliche Unterlagen nennen das Vorzeichen ihrer Werte nicht. Die Tabellen nach ISO 230-1 enthalten, was die Werkzeuge des Maschinenherstellers dafür brauchen.</translation>
     </message>
     <message>
-        <source>{} measured {:+.1f} µm beside the prediction, far beyond its uncertainty: used if the next cycle says so too</source>
-        <translation>{} {:+.1f} µm neben der Vorhersage gemessen, weit außerhalb ihrer Unsicherheit: wird verwendet, wenn der nächste Zyklus dasselbe sagt</translation>
-    </message>
-    <message>
-        <source>{} measured {:+.2f} beside the prediction, far beyond its uncertainty: used if the next measurement says so too</source>
-        <translation>{} {:+.2f} neben der Vorhersage gemessen, weit außerhalb ihrer Unsicherheit: wird verwendet, wenn die nächste Messung dasselbe sagt</translation>
-    </message>
-    <message>
         <source>{} of {} measurements were more than {:.0f} standard uncertainties off the prediction and were not used, the first at {:.6g} s ({:.2f} off); a second one in a row on the same side would have been.</source>
         <translation>{} von {} Messungen lagen mehr als {:.0f} Standardunsicherheiten neben der Vorhersage und wurden nicht verwendet, die erste bei {:.6g} s (um {:.2f}); eine zweite in Folge auf derselben Seite wäre verwendet worden.</translation>
     </message>
@@ -9279,10 +9243,6 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>{}, which is named, in a course of its own would explain it as well</source>
         <translation>{}, bereits benannt, würde es mit einem eigenen Verlauf ebenso erklären</translation>
-    </message>
-    <message>
-        <source>{} and {} moved together in training and part here: which of them causes what, the training cannot tell; let one move without the other there.</source>
-        <translation>{} und {} haben sich im Training gemeinsam bewegt und trennen sich hier: Welche davon was verursacht, sagt das Training nicht; lassen Sie dort einmal eine ohne die andere laufen.</translation>
     </message>
     <message>
         <source>the model has no output to compensate.</source>
@@ -9677,10 +9637,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Eingelaufen: die Drift jeder Achse liegt mit ihrer Unsicherheit unter {} µm/h.</translation>
     </message>
     <message>
-        <source>The machine stood and its temperatures held meanwhile: it is the instrument that drifts, and its drift would appear in every deviation as a motion of the machine.</source>
-        <translation>Die Maschine stand, und ihre Temperaturen hielten sich inzwischen: es driftet das Messgerät, und seine Drift erschiene in jeder Abweichung als Bewegung der Maschine.</translation>
-    </message>
-    <message>
         <source>Checking whether the instrument had settled</source>
         <translation>Es wird geprüft, ob das Messgerät eingelaufen war</translation>
     </message>
@@ -9707,6 +9663,58 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>The model is fitted, but does not describe this state, or a point is disturbed: its residuals are larger than the stated uncertainties allow.</source>
         <translation>Das Modell ist angepasst, beschreibt diesen Zustand aber nicht, oder ein Punkt ist gestört: seine Residuen sind größer, als die angegebenen Unsicherheiten erlauben.</translation>
+    </message>
+    <message>
+        <source>The machine was at rest at constant temperatures: the drift is that of the instrument.</source>
+        <translation>Die Maschine stand, und ihre Temperaturen hielten sich inzwischen: es driftet das Messgerät.</translation>
+    </message>
+    <message>
+        <source>in {} of {} rows the combination of inputs is outside that of the training (by a factor of up to {:.1f}); the interval is wider there.</source>
+        <translation>in {} von {} Zeilen stehen die Eingänge zusammen wie nie im Training (bis zu {:.1f}-mal außerhalb seines Bereichs); dort ist das Intervall breiter.</translation>
+    </message>
+    <message>
+        <source>it deviates by {:.1f} µm from all other touches ({:.0f} times the touch noise); excluded</source>
+        <translation>sie verfehlt um {:.1f} µm, was alle anderen Antastungen sagen ({:.0f}-mal das Antastrauschen); ausgelassen</translation>
+    </message>
+    <message>
+        <source>its height deviates by {:.0f} µm from the {} other surface touches of {}; excluded</source>
+        <translation>ihre Höhe liegt {:.0f} µm neben dem, was die {} anderen Flächenantastungen von {} sagen; ausgelassen</translation>
+    </message>
+    <message>
+        <source>its height deviates by {:.0f} µm from the {} other surface touches</source>
+        <translation>ihre Höhe liegt {:.0f} µm neben dem, was die {} anderen Flächenantastungen sagen</translation>
+    </message>
+    <message>
+        <source>the log does not show whether it was at rest</source>
+        <translation>nichts im Protokoll sagt, ob sie stand</translation>
+    </message>
+    <message>
+        <source>{} measured {:+.1f} µm off the prediction, far beyond its uncertainty: used if the next cycle confirms it</source>
+        <translation>{} {:+.1f} µm neben der Vorhersage gemessen, weit außerhalb ihrer Unsicherheit: wird verwendet, wenn der nächste Zyklus dasselbe sagt</translation>
+    </message>
+    <message>
+        <source>{} measured {:+.2f} off the prediction, far beyond its uncertainty: used if the next measurement confirms it</source>
+        <translation>{} {:+.2f} neben der Vorhersage gemessen, weit außerhalb ihrer Unsicherheit: wird verwendet, wenn die nächste Messung dasselbe sagt</translation>
+    </message>
+    <message>
+        <source>{} and {} are collinear in the training and separate here: their effects cannot be distinguished from the training; vary one without the other there.</source>
+        <translation>{} und {} haben sich im Training gemeinsam bewegt und trennen sich hier: Welche davon was verursacht, sagt das Training nicht; lassen Sie dort einmal eine ohne die andere laufen.</translation>
+    </message>
+    <message>
+        <source>, {:g} {} given: {}</source>
+        <translation>, {:g} {} angegeben: {}</translation>
+    </message>
+    <message>
+        <source>&quot;{}&quot; is given a size in {}; allowed: {}.</source>
+        <translation>„{}“ hat eine Größe in {}; zulässig: {}.</translation>
+    </message>
+    <message>
+        <source>answer &quot;{}&quot; {}; allowed: EFFECT[:DRIVER[:SIZE]], for example column.bending.a:column_difference:12um.</source>
+        <translation>Antwort „{}“ {}; zulässig: EFFECT[:DRIVER[:SIZE]], zum Beispiel column.bending.a:column_difference:12um.</translation>
+    </message>
+    <message>
+        <source>has a size without the unit µm or µrad</source>
+        <translation>hat eine Größe ohne die Einheit µm oder µrad</translation>
     </message>
 </context>
 <context>
@@ -10515,16 +10523,8 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Auftrag</translation>
     </message>
     <message>
-        <source>How far</source>
-        <translation>Fortschritt</translation>
-    </message>
-    <message>
         <source>Jobs</source>
         <translation>Aufträge</translation>
-    </message>
-    <message>
-        <source>Nothing runs.</source>
-        <translation>Es läuft nichts.</translation>
     </message>
     <message>
         <source>Cancel the job</source>
@@ -10547,10 +10547,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Meldung</translation>
     </message>
     <message>
-        <source>Nothing has been said yet.</source>
-        <translation>Noch keine Meldungen.</translation>
-    </message>
-    <message>
         <source>Close</source>
         <translation>Schließen</translation>
     </message>
@@ -10561,6 +10557,18 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>%1 %</source>
         <translation>%1 %</translation>
+    </message>
+    <message>
+        <source>Progress</source>
+        <translation>Fortschritt</translation>
+    </message>
+    <message>
+        <source>No job is running.</source>
+        <translation>Es läuft nichts.</translation>
+    </message>
+    <message>
+        <source>There are no messages yet.</source>
+        <translation>Noch keine Meldungen.</translation>
     </message>
 </context>
 <context>
@@ -11769,10 +11777,6 @@ einsatz</translation>
         <translation>Plan öffnen, „Starten“ drücken und bestätigen, was sich bewegen wird.</translation>
     </message>
     <message>
-        <source>What happened</source>
-        <translation>Ereignisse</translation>
-    </message>
-    <message>
         <source>Time</source>
         <translation>Zeit</translation>
     </message>
@@ -11934,6 +11938,10 @@ einsatz</translation>
     <message>
         <source>%1: %2 µm rms without, %3 µm rms with, over %4 since the compensation began.</source>
         <translation>%1: %2 µm rms ohne, %3 µm rms mit Kompensation, über %4 seit ihrem Beginn.</translation>
+    </message>
+    <message>
+        <source>Events</source>
+        <translation>Ereignisse</translation>
     </message>
 </context>
 <context>
@@ -19733,10 +19741,6 @@ einsatz</translation>
         <translation>Vergleich</translation>
     </message>
     <message>
-        <source>The model stands beside no model and a static regression after the identification.</source>
-        <translation>Nach der Identifikation steht das Modell neben „ohne Modell“ und einer statischen Regression.</translation>
-    </message>
-    <message>
         <source>Compare</source>
         <translation>Vergleichen</translation>
     </message>
@@ -20011,6 +20015,10 @@ einsatz</translation>
     <message>
         <source>Prediction</source>
         <translation>Vorhersage</translation>
+    </message>
+    <message>
+        <source>After the identification the model is compared with no model and with a static regression.</source>
+        <translation>Nach der Identifikation steht das Modell neben „ohne Modell“ und einer statischen Regression.</translation>
     </message>
 </context>
 <context>

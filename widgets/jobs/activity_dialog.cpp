@@ -35,8 +35,8 @@ ActivityDialog::ActivityDialog(JobRunner& jobs, const MessageLog& log, QWidget* 
   auto* column = new QVBoxLayout(this);
   column->setSpacing(8);
   column->addWidget(makeLabel(tr("Running and waiting"), "sectionTitle"));
-  jobs_ = new RowsModel({tr("Job"), tr("How far")}, this);
-  job_table_ = makeTable(jobs_, tr("Jobs"), tr("Nothing runs."));
+  jobs_ = new RowsModel({tr("Job"), tr("Progress")}, this);
+  job_table_ = makeTable(jobs_, tr("Jobs"), tr("No job is running."));
   column->addWidget(job_table_, 2);
   auto* line = new QHBoxLayout;
   cancel_ = makeButton(tr("Cancel the job"), "x");
@@ -46,7 +46,7 @@ ActivityDialog::ActivityDialog(JobRunner& jobs, const MessageLog& log, QWidget* 
   column->addLayout(line);
   column->addWidget(makeLabel(tr("Messages"), "sectionTitle"));
   messages_ = new RowsModel({tr("When"), tr("Message")}, this);
-  column->addWidget(makeSentenceTable(messages_, tr("Messages"), tr("Nothing has been said yet.")), 3);
+  column->addWidget(makeSentenceTable(messages_, tr("Messages"), tr("There are no messages yet.")), 3);
   auto* close = makeButton(tr("Close"), nullptr);
   auto* last = new QHBoxLayout;
   last->addStretch(1);

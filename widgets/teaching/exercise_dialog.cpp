@@ -245,8 +245,6 @@ void ExerciseDialog::makeRows() {
     row.driver->setAccessibleName(tr("Driver of effect %1").arg(i + 1));
     row.kind = new QComboBox;
     row.kind->setAccessibleName(tr("Kind of the size of effect %1").arg(i + 1));
-    row.kind->addItem(tr("Displacement"), QStringLiteral("um"));
-    row.kind->addItem(tr("Rotation"), QStringLiteral("urad"));
     row.size = new QuantityBox(QStringLiteral("um"), 1);
     row.size->setAccessibleName(tr("Size of effect %1").arg(i + 1));
     row.size->setRange(0.0, 10'000.0);
@@ -275,9 +273,10 @@ void ExerciseDialog::makeRows() {
     }
     fillEffects(row);
     connect(row.family, &QComboBox::currentIndexChanged, this, [this, row] { fillEffects(row); });
-    connect(row.effect, &QComboBox::currentIndexChanged, this, [this, row] { fillDrivers(row); });
-    connect(row.kind, &QComboBox::currentIndexChanged, this,
-            [row] { row.size->setUnit(row.kind->currentData().toString()); });
+    connect(row.effect, &QComboBox::currentIndexChanged, this, [this, row] { fillDetails(row); });
+    connect(row.kind, &QComboBox::currentIndexChanged, this, [row] {
+      if (row.kind->currentIndex() >= 0) row.size->setUnit(row.kind->currentData().toString());
+    });
     answer_rows_->addWidget(row.widget);
     rows_.push_back(row);
   }
@@ -289,12 +288,22 @@ void ExerciseDialog::fillEffects(const AnswerRow& row) {
   const std::string family = row.family->currentData().toString().toStdString();
   for (const ExerciseChoice& choice : choices_)
     if (choice.family == family) row.effect->addItem(sentenceStart(effectTitle(choice.id)), fromCore(choice.id));
-  fillDrivers(row);
+  fillDetails(row);
 }
 
-void ExerciseDialog::fillDrivers(const AnswerRow& row) {
+void ExerciseDialog::fillDetails(const AnswerRow& row) {
   row.driver->clear();
   const ExerciseChoice* choice = chosen(row);
+  // A size is of a kind that the effect changes; the one chosen stays where it can.
+  const QVariant kind = row.kind->currentData();
+  row.kind->clear();
+  for (const auto& [unit, title] :
+       {std::pair(QStringLiteral("um"), tr("Displacement")), std::pair(QStringLiteral("urad"), tr("Rotation"))}) {
+    if (choice == nullptr ||
+        std::find(choice->units.begin(), choice->units.end(), unit.toStdString()) != choice->units.end())
+      row.kind->addItem(title, unit);
+  }
+  if (const int at = row.kind->findData(kind); at >= 0) row.kind->setCurrentIndex(at);
   if (choice == nullptr) {
     row.driver->addItem(tr("Driver …"));
   } else if (choice->drivers.empty()) {
@@ -311,15 +320,29 @@ const ExerciseChoice* ExerciseDialog::chosen(const AnswerRow& row) const {
   return found == choices_.end() ? nullptr : &*found;
 }
 
-bool ExerciseDialog::pick(int row, const std::string& id, const std::string& driver, std::optional<double> size) {
+bool ExerciseDialog::pick(int row, const std::string& id, const std::string& driver,
+                          const std::optional<NamedSize>& size) {
   const AnswerRow& one = rows_.at(static_cast<std::size_t>(row));
   const auto found = std::find_if(choices_.begin(), choices_.end(), [&](const auto& c) { return c.id == id; });
   if (found == choices_.end()) return false;
   one.family->setCurrentIndex(one.family->findData(fromCore(found->family)));
   one.effect->setCurrentIndex(one.effect->findData(fromCore(id)));
   if (const int at = one.driver->findData(fromCore(driver)); at >= 0) one.driver->setCurrentIndex(at);
-  one.size->setValue(size.value_or(0.0));
+  one.size->setValue(0.0);
+  if (size) {
+    const int kind = one.kind->findData(fromCore(size->unit));
+    if (kind < 0) return false;
+    one.kind->setCurrentIndex(kind);
+    one.size->setValue(size->value);
+  }
   return one.effect->currentIndex() > 0;
+}
+
+std::vector<std::string> ExerciseDialog::sizeUnits(int row) const {
+  const QComboBox* kind = rows_.at(static_cast<std::size_t>(row)).kind;
+  std::vector<std::string> out;
+  for (int i = 0; i < kind->count(); ++i) out.push_back(kind->itemData(i).toString().toStdString());
+  return out;
 }
 
 void ExerciseDialog::withKey(const QString& title, std::function<void(const ExerciseKey&)> use) {
@@ -370,7 +393,7 @@ void ExerciseDialog::showScore(const ExerciseKey& key) {
     const ExerciseChoice* choice = chosen(row);
     if (choice == nullptr) continue;
     NamedEffect named{choice->id, row.driver->currentData().toString().toStdString(), std::nullopt};
-    if (row.size->value() > 0.0) named.size = row.size->value();
+    if (row.size->value() > 0.0) named.size = {row.size->value(), row.kind->currentData().toString().toStdString()};
     answer.named.push_back(std::move(named));
   }
   try {
@@ -386,10 +409,10 @@ void ExerciseDialog::showScore(const ExerciseKey& key) {
     return cell;
   };
   for (const ExerciseScore::Line& line : score_->lines) {
-    const QString unit = unitText(unitOf(line.hidden.component));
+    const EffectSize& true_size = line.size();
+    const QString unit = unitText(unitOf(true_size.component));
     const QString size =
-        tr("%1 in %2")
-            .arg(withError(line.hidden.size, line.hidden.size_uncertainty, unit), componentName(line.hidden.component));
+        tr("%1 in %2").arg(withError(true_size.value, true_size.uncertainty, unit), componentName(true_size.component));
     QString driver = tr("nothing in the log");
     if (!line.hidden.drivers.empty()) driver = driverWords(line.hidden.drivers.front());
     Row row;

@@ -50,7 +50,9 @@ class ExerciseDialog : public QDialog {
   [[nodiscard]] QPushButton* answerButton() const { return answer_; }
   [[nodiscard]] int answerRows() const { return static_cast<int>(rows_.size()); }
   /// Fills a row of the answer as a user does; false if there is no such effect to pick.
-  bool pick(int row, const std::string& id, const std::string& driver, std::optional<double> size);
+  bool pick(int row, const std::string& id, const std::string& driver, const std::optional<NamedSize>& size);
+  /// Units of files that a size may have in a row of the answer.
+  [[nodiscard]] std::vector<std::string> sizeUnits(int row) const;
   [[nodiscard]] const std::optional<ExerciseScore>& score() const { return score_; }
   [[nodiscard]] RowsModel* resultRows() const { return results_; }
   [[nodiscard]] RowsModel* historyRows() const { return history_; }
@@ -76,7 +78,7 @@ class ExerciseDialog : public QDialog {
   void loadChoices();
   void makeRows();
   void fillEffects(const AnswerRow& row);
-  void fillDrivers(const AnswerRow& row);
+  void fillDetails(const AnswerRow& row);
   [[nodiscard]] const ExerciseChoice* chosen(const AnswerRow& row) const;
   void withKey(const QString& title, std::function<void(const ExerciseKey&)> use);
   void showHint();

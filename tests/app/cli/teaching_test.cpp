@@ -50,8 +50,14 @@ TEST(Teaching, AnExerciseIsWrittenListedAndMarked) {
   const std::string hidden = score.at("effects")[0].at("id");
   EXPECT_EQ(score.at("hints").size(), 1U);
   const nlohmann::json drivers = score.at("effects")[0].at("drivers");
-  const std::string right = hidden + ":" + (drivers.empty() ? "" : drivers[0].get<std::string>()) + ":" +
-                            std::to_string(score.at("effects")[0].at("size").get<double>());
+  const std::string number = hidden + ":" + (drivers.empty() ? "" : drivers[0].get<std::string>()) + ":" +
+                             std::to_string(score.at("effects")[0].at("size").get<double>());
+  ASSERT_EQ(score.at("effects")[0].at("unit"), "um");
+  const std::string right = number + "um";
+  const Outcome other_unit = runCli({"exercise", campaign, "--answer", number + "urad"});
+  EXPECT_EQ(other_unit.status, 2);
+  EXPECT_NE(other_unit.error.find("µm"), std::string::npos) << other_unit.error;
+  EXPECT_EQ(runCli({"exercise", campaign, "--answer", number}).status, 2);
   const Outcome perfect = runCli({"exercise", campaign, "--answer", right, "--json", "-"});
   EXPECT_EQ(perfect.status, 0);
   EXPECT_EQ(nlohmann::json::parse(perfect.output).at("score"), 100);

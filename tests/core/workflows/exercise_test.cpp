@@ -17,10 +17,15 @@ using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
+NamedSize sizeOf(const HiddenEffect& hidden, double more_u = 0.0) {
+  const EffectSize& size = hidden.sizes.front();
+  return {size.value + more_u * size.uncertainty, std::string(unitOf(size.component))};
+}
+
 ExerciseAnswer perfect(const ExerciseKey& key) {
   ExerciseAnswer answer;
   for (const HiddenEffect& hidden : key.hidden)
-    answer.named.push_back({hidden.id, hidden.drivers.empty() ? "" : hidden.drivers.front(), hidden.size});
+    answer.named.push_back({hidden.id, hidden.drivers.empty() ? "" : hidden.drivers.front(), sizeOf(hidden)});
   return answer;
 }
 
@@ -67,8 +72,9 @@ TEST(Exercise, ARightAnswerHasAllMarksAndEveryFaultCosts) {
   for (const auto level : {ExerciseLevel::Easy, ExerciseLevel::Medium}) {
     const ExerciseKey key = exerciseKey({3, level}, job);
     for (const HiddenEffect& hidden : key.hidden) {
-      EXPECT_GT(hidden.size, 5.0 * hidden.size_uncertainty / (1.0 + 0.1 * hidden.size)) << hidden.id;
-      EXPECT_GT(hidden.size_uncertainty, 0.0);
+      const EffectSize& size = hidden.sizes.front();
+      EXPECT_GT(size.value, 5.0 * size.uncertainty / (1.0 + 0.1 * size.value)) << hidden.id;
+      EXPECT_GT(size.uncertainty, 0.0);
     }
     const ExerciseAnswer right = perfect(key);
     EXPECT_EQ(scoreExercise(key, right).total, 100);
@@ -79,9 +85,9 @@ TEST(Exercise, ARightAnswerHasAllMarksAndEveryFaultCosts) {
     answer.searched_before = true;
     EXPECT_EQ(scoreExercise(key, answer).total, 40);
     answer = right;
-    answer.named.front().size = right.named.front().size.value() + 3.0 * key.hidden.front().size_uncertainty;
+    answer.named.front().size = sizeOf(key.hidden.front(), 3.0);
     EXPECT_EQ(scoreExercise(key, answer).total, level == ExerciseLevel::Easy ? 80 : 90);
-    answer.named.front().size = right.named.front().size.value() + 1.9 * key.hidden.front().size_uncertainty;
+    answer.named.front().size = sizeOf(key.hidden.front(), 1.9);
     EXPECT_EQ(scoreExercise(key, answer).total, 100);
     EXPECT_EQ(scoreExercise(key, {}).total, 0);
     EXPECT_FALSE(scoreExercise(key, {}).allNamed());
@@ -99,18 +105,55 @@ TEST(Exercise, NestedEffectsCountHalfAndOthersCost) {
   hidden.id = "spindle.growth.z";
   hidden.drivers = {"spindle_rpm^1.5", "T_spindle_degC"};
   hidden.alike = {"head.tilt.a"};
-  hidden.size = 20.0;
-  hidden.size_uncertainty = 2.0;
+  hidden.sizes = {{Component::EZ, 20.0, 2.0}};
   key.hidden = {hidden};
-  EXPECT_EQ(scoreExercise(key, {{{"head.tilt.a", "T_spindle_degC", 20.0}}}).total, 30);
-  EXPECT_EQ(scoreExercise(key, {{{"spindle.growth.z", "T_room_degC", 20.0}}}).total, 80);
+  const NamedSize right{20.0, "um"};
+  EXPECT_EQ(scoreExercise(key, {{{"head.tilt.a", "T_spindle_degC", right}}}).total, 30);
+  EXPECT_EQ(scoreExercise(key, {{{"spindle.growth.z", "T_room_degC", right}}}).total, 80);
   EXPECT_EQ(scoreExercise(key, {{{"spindle.growth.z", "T_spindle_degC", {}}}}).total, 80);
-  EXPECT_EQ(scoreExercise(key, {{{"spindle.growth.z", "T_spindle_degC", 23.0}, {"ambient.drift.x", "", {}}}}).total,
+  const NamedSize nearly{23.0, "um"};
+  EXPECT_EQ(scoreExercise(key, {{{"spindle.growth.z", "T_spindle_degC", nearly}, {"ambient.drift.x", "", {}}}}).total,
             75);
   EXPECT_EQ(scoreExercise(key, {{{"ambient.drift.x", "", {}}}}).total, 0);
   EXPECT_THROW((void)scoreExercise(key, {{{"a.b", "", {}}, {"a.b", "", {}}}}), InputError);
   EXPECT_THROW((void)scoreExercise(key, {{}, 4}), InputError);
   EXPECT_THAT(scoreExercise(key, {{{"head.tilt.a", "", {}}}}).text(), HasSubstr("nested"));
+}
+
+TEST(Exercise, ASizeHasTheUnitOfWhatTheEffectChanges) {
+  JobContext job;
+  const Exercise exercise{5, ExerciseLevel::Easy};
+  const ExerciseKey key = exerciseKey(exercise, job);
+  ExerciseAnswer answer = perfect(key);  // a shift along Y: displacements alone
+  ASSERT_EQ(key.hidden.front().sizes.size(), 1U);
+  ASSERT_EQ(answer.named.front().size->unit, "um");
+  EXPECT_EQ(scoreExercise(key, answer).total, 100);
+  answer.named.front().size->unit = "urad";
+  EXPECT_THROW((void)scoreExercise(key, answer), InputError);
+  // What is not hidden is refused in the same way: a refusal gives nothing away.
+  answer.named.front() = {"ambient.drift.z", "", NamedSize{12.0, "urad"}};
+  ASSERT_NE(key.hidden.front().id, "ambient.drift.z");
+  EXPECT_THROW((void)scoreExercise(key, answer), InputError);
+  // An effect that changes both may be answered in either, each held against its own size.
+  ExerciseKey both;
+  both.hidden = {{"head.tilt.a", {}, {}, {{Component::EA, 30.0, 2.0}, {Component::EY, 12.0, 2.0}}}};
+  both.units["head.tilt.a"] = {"um", "urad"};
+  EXPECT_EQ(scoreExercise(both, {{{"head.tilt.a", "", NamedSize{12.0, "um"}}}}).total, 100);
+  EXPECT_EQ(scoreExercise(both, {{{"head.tilt.a", "", NamedSize{30.0, "urad"}}}}).total, 100);
+  EXPECT_EQ(scoreExercise(both, {{{"head.tilt.a", "", NamedSize{12.0, "urad"}}}}).total, 80);
+  EXPECT_EQ(scoreExercise(both, {{{"head.tilt.a", "", NamedSize{30.0, "um"}}}}).total, 80);
+  both.hidden.front().sizes.pop_back();  // it turns, and shifts no point by more than noise
+  EXPECT_EQ(scoreExercise(both, {{{"head.tilt.a", "", NamedSize{30.0, "um"}}}}).total, 80);
+  // What can be named says which units it has, and never none.
+  const testing::TempFolder folder;
+  writeExercise(exercise, folder.path() / "campaign", job);
+  bool rotates = false;
+  for (const ExerciseChoice& choice : exerciseChoices(folder.path() / "campaign")) {
+    EXPECT_FALSE(choice.units.empty()) << choice.id;
+    EXPECT_EQ(choice.units, key.units.at(choice.id));
+    rotates = rotates || choice.units.back() == "urad";
+  }
+  EXPECT_TRUE(rotates);
 }
 
 TEST(Exercise, TheRightDriverIsTheOneThatMovedTheMachine) {
@@ -147,7 +190,21 @@ TEST(Exercise, HintsAndWhatIsNotAllowed) {
   EXPECT_THROW((void)NamedEffect::parse(""), InputError);
   EXPECT_THROW((void)NamedEffect::parse("a:b:c"), InputError);
   EXPECT_THROW((void)NamedEffect::parse("a:b:1:2"), InputError);
-  EXPECT_EQ(NamedEffect::parse("a.b:spindle_rpm^1.5:3.5").size.value(), 3.5);
+  EXPECT_THROW((void)NamedEffect::parse("a:b:1"), InputError) << "1 of what";
+  EXPECT_THROW((void)NamedEffect::parse("a:b:um"), InputError);
+  EXPECT_THROW((void)NamedEffect::parse("a:b:-1um"), InputError);
+  EXPECT_THROW((void)NamedEffect::parse("a:b:1mm"), InputError);
+  const NamedSize size = NamedEffect::parse("a.b:spindle_rpm^1.5:3.5um").size.value();
+  EXPECT_EQ(size.value, 3.5);
+  EXPECT_EQ(size.unit, "um");
+  // What nothing in the log drives has no driver to name.
+  for (const auto& [text, unit] : {std::pair{"a.b::12 µrad", "urad"}, std::pair{"a.b::12µm", "um"}}) {
+    const NamedEffect named = NamedEffect::parse(text);
+    EXPECT_EQ(named.driver, "");
+    ASSERT_TRUE(named.size.has_value());
+    EXPECT_EQ(named.size->value, 12.0);
+    EXPECT_EQ(named.size->unit, unit);
+  }
   const testing::TempFolder folder;
   EXPECT_FALSE(Exercise::of(folder.path()).has_value());
   for (const char* text : {"{}", R"({"format":"spindrift-exercise","version":2,"seed":1,"level":"easy"})",

@@ -155,8 +155,14 @@ TEST_F(ExerciseTest, ARightAnswerIsMarkedAndKept) {
   const HiddenEffect hidden = exerciseKey(exercise_, job).hidden.front();
   dialog.hintButton()->click();
   wait();
-  EXPECT_TRUE(dialog.hintText().contains(QString::fromStdString(std::string(toString(hidden.component)))));
-  ASSERT_TRUE(dialog.pick(0, hidden.id, hidden.drivers.empty() ? "" : hidden.drivers.front(), hidden.size));
+  EXPECT_TRUE(
+      dialog.hintText().contains(QString::fromStdString(std::string(toString(hidden.sizes.front().component)))));
+  EXPECT_EQ(dialog.sizeUnits(0), (std::vector<std::string>{"um", "urad"}));
+  const std::string driver = hidden.drivers.empty() ? "" : hidden.drivers.front();
+  const double size = hidden.sizes.front().value;
+  EXPECT_FALSE(dialog.pick(0, hidden.id, driver, NamedSize{size, "urad"})) << "a shift is no rotation";
+  EXPECT_EQ(dialog.sizeUnits(0), std::vector<std::string>{"um"});
+  ASSERT_TRUE(dialog.pick(0, hidden.id, driver, NamedSize{size, "um"}));
   dialog.answerButton()->click();
   wait();
   ASSERT_TRUE(dialog.score().has_value());

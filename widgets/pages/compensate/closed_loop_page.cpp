@@ -129,9 +129,9 @@ ClosedLoopPage::ClosedLoopPage(SessionModel& session, QWidget* parent)
   errors_ = makeLabel({}, "secondaryText");
   errors_->setWordWrap(true);
   left->body()->addWidget(errors_);
-  auto* right = new Card(tr("What happened"));
+  auto* right = new Card(tr("Events"));
   events_ = new RowsModel({tr("Time"), tr("Event")}, this);
-  event_table_ = makeTable(events_, tr("What happened"), tr("Events of the loop appear here."));
+  event_table_ = makeTable(events_, tr("Events"), tr("Events of the loop appear here."));
   stretchColumn(event_table_, 1);
   right->body()->addWidget(event_table_, 1);
   happened_ = right;

@@ -117,9 +117,10 @@ QWidget* ThermalModelPage::makeDetails() {
   auto* card = new Card;
   tabs_ = makeTabs();
   comparison_ = new RowsModel({tr("Model"), tr("Train rms"), tr("Test rms"), tr("Fit / %"), tr("p2p")}, this);
-  tabs_->addTab(makeTable(comparison_, tr("Comparison"),
-                          tr("The model stands beside no model and a static regression after the identification.")),
-                tr("Compare"));
+  tabs_->addTab(
+      makeTable(comparison_, tr("Comparison"),
+                tr("After the identification the model is compared with no model and with a static regression.")),
+      tr("Compare"));
   inputs_ = new RowsModel({tr("Input"), tr("Verdict"), tr("Part, rms"), tr("Without / %")}, this);
   tabs_->addTab(makeTable(inputs_, tr("Inputs"), tr("The signals of the log appear here.")), tr("Inputs"));
   auto* step = new QWidget;
