@@ -113,7 +113,7 @@ Plot::Plot(QWidget* parent) : QWidget(parent), plot_(new QCustomPlot(this)) {
   }
   plot_->axisRect()->insetLayout()->setInsetAlignment(0, Qt::AlignTop | Qt::AlignRight);
   plot_->axisRect()->setupFullAxesBox(false);
-  connect(plot_->xAxis, qOverload<const QCPRange&>(&QCPAxis::rangeChanged), this, &Plot::placeMarks);
+  connect(plot_->xAxis, qOverload<const QCPRange&>(&QCPAxis::rangeChanged), this, &Plot::placeNames);
   connect(&ThemeNotifier::instance(), &ThemeNotifier::changed, this, [this] {
     rebuild();
     replotSoon();
@@ -262,6 +262,37 @@ void Plot::placeMarks() {
   }
 }
 
+/// Each name at the left edge of its span, or as far left of it as it needs to be whole, above the names that stand
+/// there.
+void Plot::placeSpanNames() {
+  span_name_areas_.clear();
+  const QRectF axes = plot_->axisRect()->rect();
+  if (axes.width() < 1 || axes.height() < 1) return;
+  constexpr double lowest = 0.985;  // of the height
+  const QFontMetrics metrics(textFont(sizes::font_secondary));
+  const double row_height = metrics.height() + 4;
+  for (std::size_t i = 0; i < span_names_.size(); ++i) {
+    const double from = plot_->xAxis->coordToPixel(spans_[i].from);
+    const double to = plot_->xAxis->coordToPixel(spans_[i].to);
+    const bool shown = !spans_[i].name.isEmpty() && from < axes.right() && to > axes.left();
+    span_names_[i]->setVisible(shown);
+    if (!shown) continue;
+    const double width = metrics.horizontalAdvance(spans_[i].name) + 12;
+    const double left = std::max(axes.left(), std::min(from, axes.right() - width));
+    QRectF area(left, axes.top() + lowest * axes.height() - row_height, width, row_height);
+    const auto meets = [&](const QRectF& other) { return other.intersects(area); };
+    while (area.top() > axes.top() && std::any_of(span_name_areas_.begin(), span_name_areas_.end(), meets))
+      area.translate(0, -row_height);
+    span_names_[i]->position->setCoords(plot_->xAxis->pixelToCoord(left), (area.bottom() - axes.top()) / axes.height());
+    span_name_areas_.push_back(area);
+  }
+}
+
+void Plot::placeNames() {
+  placeMarks();
+  placeSpanNames();
+}
+
 std::vector<QRectF> Plot::markAreas() const {
   std::vector<QRectF> areas;
   for (const Mark& mark : marks_) {
@@ -318,6 +349,7 @@ void Plot::rebuild() {
   plot_->clearPlottables();
   plot_->clearItems();
   for (Mark& mark : marks_) mark.label = nullptr;
+  span_names_.clear();
   moment_line_ = nullptr;
   restyle();
   const Theme& t = theme();
@@ -344,6 +376,7 @@ void Plot::rebuild() {
     text->position->setTypeY(QCPItemPosition::ptAxisRectRatio);
     text->position->setCoords(span.from, 0.985);
     text->setPadding(QMargins(6, 2, 6, 2));
+    span_names_.push_back(text);
   }
   for (const Series& s : series_) {
     const QColor colour = t.series[static_cast<std::size_t>(s.colour) % t.series.size()];
@@ -452,11 +485,11 @@ void Plot::drawIfStale() {
   const QRect area(QPoint(0, 0), size().expandedTo({1, 1}));
   plot_->setViewport(area);
   layOut();
-  placeMarks();
+  placeNames();
   placeLegend();
   fitAxes();  // a legend above the axes moves them
   layOut();
-  placeMarks();
+  placeNames();
   const bool resized = plot_->geometry() != area;
   plot_->setGeometry(area);
   plot_->show();
@@ -559,8 +592,9 @@ void Plot::placeLegend() {
       before = now;
     }
   }
-  for (const QRectF& name : markAreas()) {
-    for (Corner& corner : corners) corner.hits += corner.area.intersects(name) ? 1 : 0;
+  for (const std::vector<QRectF>& names : {markAreas(), span_name_areas_}) {
+    for (const QRectF& name : names)
+      for (Corner& corner : corners) corner.hits += corner.area.intersects(name) ? 1 : 0;
   }
   const auto best = std::min_element(corners.begin(), corners.end(),
                                      [](const Corner& a, const Corner& b) { return a.hits < b.hits; });

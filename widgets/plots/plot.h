@@ -89,6 +89,8 @@ class Plot : public QWidget {
   [[nodiscard]] bool empty() const { return series_.empty(); }
   /// Where the names of the marks in view stand, pixels of this widget.
   [[nodiscard]] std::vector<QRectF> markAreas() const;
+  /// The same of the names of spans.
+  [[nodiscard]] const std::vector<QRectF>& spanNameAreas() const { return span_name_areas_; }
   [[nodiscard]] const std::vector<Series>& series() const { return series_; }
 
   [[nodiscard]] QSize sizeHint() const override { return {480, 280}; }
@@ -140,10 +142,14 @@ class Plot : public QWidget {
   void placeMoment();
   void drawMark(Mark& mark);
   void placeMarks();
+  void placeSpanNames();
+  void placeNames();
   void layOut();
   void fitAxes();
   void nameForReaders();
 
+  std::vector<QCPItemText*> span_names_;  ///< of each span
+  std::vector<QRectF> span_name_areas_;   ///< of those in view
   bool spans_movable_ = false;
   std::optional<std::pair<std::size_t, bool>> dragged_edge_;
   std::optional<double> moment_;

@@ -243,6 +243,23 @@ TEST(Plot, NamesOfMarksLieOnNoOther) {
   }
 }
 
+TEST(Plot, NamesOfSpansAreWholeAndLieOnNoOther) {
+  Plot plot;
+  plot.show();
+  for (const int width : {250, 300, 700}) {
+    plot.resize(width, 300);
+    const Series line = ramp();
+    const double last = line.x.back();
+    plot.setContent({line}, {{0.5 * last, 0.88 * last, QStringLiteral("Training"), Tone::Accent},
+                             {0.9 * last, last, QStringLiteral("Validierungsdaten"), Tone::Good}});
+    (void)plot.grab();
+    const std::vector<QRectF>& areas = plot.spanNameAreas();
+    ASSERT_EQ(areas.size(), 2U) << width;
+    for (const QRectF& area : areas) EXPECT_TRUE(QRectF(plot.rect()).contains(area)) << width;
+    EXPECT_FALSE(areas[0].intersects(areas[1])) << width;
+  }
+}
+
 TEST(Plot, TimeIsShownInPeoplesUnits) {
   EXPECT_EQ(timeUnit(86400).name, QStringLiteral("h"));
   EXPECT_EQ(timeUnit(1800).name, QStringLiteral("min"));

@@ -13,6 +13,7 @@
 #include <QSignalBlocker>
 #include <QSplitter>
 #include <QStackedWidget>
+#include <QStyledItemDelegate>
 #include <QTreeWidget>
 #include <QVBoxLayout>
 #include <algorithm>
@@ -45,6 +46,28 @@ constexpr int debounce_ms = 250;
 constexpr int row_height = 32;
 constexpr int state_width = 32;
 constexpr auto effects_file = "effects.json";
+
+/// Titles of effects go on in further lines: QTreeView asks for the height of an item without saying its width.
+class WrappedTitles : public QStyledItemDelegate {
+ public:
+  explicit WrappedTitles(QTreeWidget* tree) : QStyledItemDelegate(tree), tree_(*tree) {}
+  [[nodiscard]] QSize sizeHint(const QStyleOptionViewItem& option, const QModelIndex& index) const override {
+    int levels = tree_.rootIsDecorated() ? 1 : 0;
+    for (QModelIndex parent = index.parent(); parent.isValid(); parent = parent.parent()) ++levels;
+    QStyleOptionViewItem whole = option;
+    initStyleOption(&whole, index);
+    whole.rect = QRect(0, 0, tree_.columnWidth(index.column()) - levels * tree_.indentation(), 1000);
+    const int margin = tree_.style()->pixelMetric(QStyle::PM_FocusFrameHMargin, nullptr, &tree_) + 1;
+    const int room = tree_.style()->subElementRect(QStyle::SE_ItemViewItemText, &whole, &tree_).width() - 2 * margin;
+    const int lines =
+        whole.fontMetrics.boundingRect(QRect(0, 0, std::max(1, room), 10000), Qt::TextWordWrap, whole.text).height();
+    const int beside = row_height - whole.fontMetrics.height();
+    return {0, std::max(row_height, lines + beside)};
+  }
+
+ private:
+  QTreeWidget& tree_;
+};
 
 nlohmann::json emptyDocument() {
   return {{"format", "spindrift-effects"}, {"version", 1}, {"built_in", true}, {"effects", nlohmann::json::array()}};
@@ -205,7 +228,8 @@ void EffectsPanel::makeBrowser() {
   tree_->setAccessibleName(tr("Effects"));
   tree_->setColumnCount(2);
   tree_->setHeaderHidden(true);
-  tree_->setUniformRowHeights(true);
+  tree_->setWordWrap(true);
+  tree_->setItemDelegate(new WrappedTitles(tree_));
   tree_->setIndentation(16);
   tree_->header()->setStretchLastSection(false);
   tree_->header()->setSectionResizeMode(0, QHeaderView::Stretch);
@@ -214,6 +238,7 @@ void EffectsPanel::makeBrowser() {
   tree_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   tree_->setVerticalScrollMode(QAbstractItemView::ScrollPerPixel);
   tree_->setMinimumHeight(160);
+  connect(tree_->header(), &QHeaderView::sectionResized, tree_, [this] { tree_->doItemsLayout(); });
   list_card->body()->addWidget(tree_, 1);
   built_in_ = new QCheckBox(tr("Use the built-in effects too"));
   built_in_->setToolTip(tr("Off: the search tries your own effects alone, for a device that is not a machine tool"));
@@ -356,12 +381,10 @@ void EffectsPanel::fillTree() {
       parent = new QTreeWidgetItem({family});
       parent->setFont(0, textFont(sizes::font_body, QFont::DemiBold));
       parent->setFlags(Qt::ItemIsEnabled | Qt::ItemIsSelectable | Qt::ItemIsUserCheckable | Qt::ItemIsAutoTristate);
-      parent->setSizeHint(0, QSize(0, row_height));
     }
     auto* item = new QTreeWidgetItem(parent, {titleOfEffect(effect)});
     item->setFlags(Qt::ItemIsEnabled | Qt::ItemIsSelectable | Qt::ItemIsUserCheckable | Qt::ItemNeverHasChildren);
     item->setCheckState(0, Qt::Checked);
-    item->setSizeHint(0, QSize(0, row_height));
     item->setToolTip(0, QStringLiteral("%1 (%2)").arg(item->text(0), QString::fromStdString(effect.id)));
     item->setData(0, id_role, QString::fromStdString(effect.id));
     QStringList words{item->text(0), family, QString::fromStdString(effect.id), coreSentence(effect.physics),
