@@ -624,70 +624,8 @@ void Segments::setCurrent(int index) {
   buttons_[static_cast<std::size_t>(index)]->setChecked(true);
 }
 
-namespace {
-
-/// Two areas beside each other. Where both have no room they stand one above the other, so that a narrow page is
-/// scrolled down and never sideways.
-class FoldingSplitter : public QSplitter {
- public:
-  using QSplitter::QSplitter;
-  [[nodiscard]] QSize minimumSizeHint() const override {
-    const bool beside = orientation() == Qt::Horizontal;
-    return {areas().widest, beside ? areas().highest : areas().above};
-  }
-
- protected:
-  void resizeEvent(QResizeEvent* event) override {
-    QSplitter::resizeEvent(event);
-    fold();
-  }
-  void showEvent(QShowEvent* event) override {
-    QSplitter::showEvent(event);
-    fold();
-  }
-  bool event(QEvent* event) override {
-    const bool handled = QSplitter::event(event);
-    if (event->type() == QEvent::LayoutRequest) fold();
-    return handled;
-  }
-
- private:
-  /// Least sizes: of the largest area, and of all of them with the handles between.
-  struct Areas {
-    int widest = 0, highest = 0, beside = 0, above = 0;
-  };
-  [[nodiscard]] Areas areas() const {
-    Areas out;
-    for (int i = 0; i < count(); ++i) {
-      const QWidget& area = *widget(i);
-      if (area.isHidden()) continue;
-      const QSize hint = area.minimumSizeHint();
-      const int width = area.minimumWidth() > 0 ? area.minimumWidth() : hint.width();
-      const int height = area.minimumHeight() > 0 ? area.minimumHeight() : hint.height();
-      out.beside += width + (out.widest > 0 ? handleWidth() : 0);
-      out.above += height + (out.highest > 0 ? handleWidth() : 0);
-      out.widest = std::max(out.widest, width);
-      out.highest = std::max(out.highest, height);
-    }
-    return out;
-  }
-  void fold() {
-    if (!isVisible()) return;  // what was not laid out yet has no width
-    const bool narrow = width() < areas().beside;
-    if (narrow == (orientation() == Qt::Vertical)) return;
-    if (narrow) beside_ = sizes();
-    setProperty(folded_property, narrow);
-    setOrientation(narrow ? Qt::Vertical : Qt::Horizontal);
-    if (!narrow && !beside_.contains(0)) setSizes(beside_);
-    updateGeometry();
-  }
-  QList<int> beside_;  ///< sizes to go back to
-};
-
-}  // namespace
-
 QSplitter* makeSplitter(QWidget* first, QWidget* second, int first_part, int second_part, Qt::Orientation orientation) {
-  QSplitter* splitter = orientation == Qt::Horizontal ? new FoldingSplitter(orientation) : new QSplitter(orientation);
+  auto* splitter = new QSplitter(orientation);
   splitter->setChildrenCollapsible(false);
   splitter->setHandleWidth(12);
   splitter->addWidget(first);

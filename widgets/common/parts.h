@@ -169,10 +169,7 @@ void wrapCells(QTableView* table);
 /// The same with sentences in its last column, which has the room that the others leave and as many lines as it needs.
 [[nodiscard]] QTableView* makeSentenceTable(QAbstractItemModel* model, const QString& accessible_name,
                                             const QString& empty_text);
-/// Of a splitter: true while its areas stand one above the other, because they have no room beside each other.
-inline constexpr auto folded_property = "folded";
-/// Two areas with a movable border, their sizes in the given proportion. Beside each other only as long as both have
-/// room.
+/// Two areas with a movable border, their sizes in the given proportion.
 [[nodiscard]] QSplitter* makeSplitter(QWidget* first, QWidget* second, int first_part, int second_part,
                                       Qt::Orientation orientation = Qt::Horizontal);
 [[nodiscard]] QTabWidget* makeTabs();

@@ -806,7 +806,6 @@ void MainWindow::closeEvent(QCloseEvent* event) {
   for (const auto& [entry, page] : pages_) {
     if (page == nullptr) continue;
     for (const QSplitter* splitter : page->findChildren<QSplitter*>()) {
-      if (splitter->property(folded_property).toBool()) continue;  // its sizes are those of another direction
       QVariantList sizes;
       for (const int size : splitter->sizes()) sizes << size;
       // What was never shown has no sizes that anybody chose.

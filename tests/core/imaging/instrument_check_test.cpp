@@ -175,7 +175,7 @@ TEST(WarmUp, TellsTheInstrumentFromTheMachineOrSaysThatItCannot) {
   const WarmUpResult instrument = judgeWarmUp(drifting, "", {}, &rest);
   EXPECT_FALSE(instrument.settled);
   EXPECT_EQ(instrument.cause, WarmUpCause::Instrument);
-  EXPECT_THAT(instrument.cause_reason, HasSubstr("it is the instrument"));
+  EXPECT_THAT(instrument.cause_reason, HasSubstr("that of the instrument"));
   const OperatingLog work = logOf(3000.0, 8.0);
   const WarmUpResult unknown = judgeWarmUp(drifting, "", {}, &work);
   EXPECT_EQ(unknown.cause, WarmUpCause::Unknown);

@@ -128,7 +128,7 @@ TEST(LiveTouches, ASurfaceTouchOffThePlaneOfTheOthersIsSuspectInTheFirstCycle) {
       rows += live.takeFinished(false).size();
     }
     ASSERT_EQ(live.retakes().size(), 1U) << feature;
-    EXPECT_NE(live.retakes().front().find(feature + " again, touch 4: its height is -"), std::string::npos)
+    EXPECT_NE(live.retakes().front().find(feature + " again, touch 4: its height deviates by -"), std::string::npos)
         << live.retakes().front();
     rows += live.takeFinished(true).size();
     EXPECT_EQ(rows, run.list.touches.size() - 1) << "it has not reached the campaign";

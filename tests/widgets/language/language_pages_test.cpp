@@ -189,8 +189,8 @@ class LanguagePagesTest : public StoryTest {
   }
   /// Nothing that `root` shows, and no action of its menus, is without marks or has units as files write them.
   void expectTranslated(QWidget& root, const std::string& what) {
-    std::set<QString> names = {QStringLiteral("log"), QStringLiteral("microscope"), QStringLiteral("fiducial"),
-                               QStringLiteral("surface"), QStringLiteral("probe")};
+    std::set<QString> names = {QStringLiteral("log"),     QStringLiteral("microscope"), QStringLiteral("fiducial"),
+                               QStringLiteral("surface"), QStringLiteral("probe"),      QStringLiteral("profiler")};
     if (const auto campaign = window_->session().campaign()) {
       names.insert(QString::fromStdString(campaign->name));
       names.merge(namesIn(nlohmann::json::parse(readFile(campaign->path("machine.json")))));

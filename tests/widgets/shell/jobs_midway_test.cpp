@@ -348,6 +348,10 @@ TEST_P(JobsMidway, LosesAndMixesNothing) {
     settle();
   }
   const bool leaves_result = *c.kind != '\0';
+  if (c.step == StepId::WarmUp && leaves_result) {  // the step says what a check has found
+    ASSERT_NO_FATAL_FAILURE(start(c));
+    settle();
+  }
   const QStringList at_first = readOn(*window_->currentPage());
 
   struct Change {
