@@ -21317,7 +21317,7 @@ einsatz</translation>
     </message>
     <message>
         <source>not settled</source>
-        <translation>nicht eingelaufen</translation>
+        <translation>driftet</translation>
     </message>
     <message>
         <source>Deviation of %1 / µm</source>
