@@ -85,7 +85,8 @@ CommandResult continueExercise(const ExerciseArguments& arguments, JobContext& j
                          {"family", choice.family},
                          {"drivers", choice.drivers},
                          {"units", choice.units}});
-      result.summary += fmt::format("{:<26} {} ({})\n", choice.id, choice.title, printedUnit(joinedList(choice.units, "or")));
+      result.summary +=
+          fmt::format("{:<26} {} ({})\n", choice.id, choice.title, printedUnit(joinedList(choice.units, "or")));
       for (const std::string& driver : choice.drivers)
         result.summary += fmt::format("{:>30}{}  {}\n", "", driver, driversInWords(driver));
     }
