@@ -251,6 +251,10 @@ Eigen::MatrixXd PosteriorSearch::modelErrorColumns(const JointFit& fit) const {
   const double start = problem_->node_time_s.front();
   const double span = std::max(1.0, problem_->node_time_s.back() - start);
   const int hats = std::clamp(problem_->epoch_count / 3, 2, 12);
+  const auto hat = [&](int h, Index u) {
+    const double position = (problem_->time_s[static_cast<std::size_t>(u)] - start) / span * (hats - 1);
+    return std::max(0.0, 1.0 - std::abs(position - h));
+  };
   for (std::size_t t = 0; t < fit.terms.size(); ++t) {
     const Eigen::VectorXd& f = fit.contribution[t];
     // Another size at every point.
@@ -269,14 +273,11 @@ Eigen::MatrixXd PosteriorSearch::modelErrorColumns(const JointFit& fit) const {
     if (first.driver.empty() && first.dynamics != Dynamics::Pulse && !fit.terms[t].effect->over_time) continue;
     for (int h = 0; h < hats; ++h) {
       Eigen::VectorXd column(f.size());
-      for (Index u = 0; u < f.size(); ++u) {
-        const double position = (problem_->time_s[static_cast<std::size_t>(u)] - start) / span * (hats - 1);
-        column[u] = priors_.model_error * f[u] * std::max(0.0, 1.0 - std::abs(position - h));
-      }
+      for (Index u = 0; u < f.size(); ++u) column[u] = priors_.model_error * f[u] * hat(h, u);
       if (!column.isZero(0.0)) columns.push_back(std::move(column));
     }
     // Driven by something else than what drives it: the course is off, in the pattern that the effect has.
-    if (!fit.terms[t].effect->driver_missing || !drivenByLog(fit.terms[t])) continue;
+    if (!drivenByStandIn(fit.terms[t])) continue;
     const Eigen::MatrixXd& shape = search_->shape(*fit.terms[t].effect);
     const Eigen::VectorXd pattern = shape * fit.gains[t].head(shape.cols());
     const Eigen::VectorXd moved = problem_->centred(f);
@@ -284,10 +285,7 @@ Eigen::MatrixXd PosteriorSearch::modelErrorColumns(const JointFit& fit) const {
     const double size = priors_.stand_in_error * moved.norm() / pattern.norm();
     for (int h = 0; h < hats; ++h) {
       Eigen::VectorXd column(f.size());
-      for (Index u = 0; u < f.size(); ++u) {
-        const double position = (problem_->time_s[static_cast<std::size_t>(u)] - start) / span * (hats - 1);
-        column[u] = size * pattern[u] * std::max(0.0, 1.0 - std::abs(position - h));
-      }
+      for (Index u = 0; u < f.size(); ++u) column[u] = size * pattern[u] * hat(h, u);
       columns.push_back(std::move(column));
     }
   }

@@ -129,6 +129,10 @@ bool drivenByLog(const ModelTerm& term) {
   });
 }
 
+bool drivenByStandIn(const ModelTerm& term) {
+  return term.effect->driver_missing && drivenByLog(term);
+}
+
 bool EffectSearch::admissible(const ModelTerm& term, const Eigen::VectorXd& gains) const {
   const Effect& effect = *term.effect;
   const auto k = static_cast<Index>(effect.shape.size());

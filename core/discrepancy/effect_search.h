@@ -23,6 +23,8 @@ struct ModelTerm {
 
 /// Some signal of the log moves it, not one that is assumed.
 [[nodiscard]] bool drivenByLog(const ModelTerm& term);
+/// The log lacks what drives it, and another signal of the log takes its place.
+[[nodiscard]] bool drivenByStandIn(const ModelTerm& term);
 
 /// A joint fit of several effects.
 struct JointFit {

@@ -352,8 +352,8 @@ Judgement judge(const ResidualProblem& problem, const EffectSearch& search, cons
       name.rivals.push_back(a.id);
     }
     const bool slow_course = couldBeAnySlowCourse(problem, fit, t);
-    double unseen =
-        0.0;  // by which rivals that the log cannot show are more probable: each is as probable as this effect
+    // What rivals that the log cannot show are more probable than their fit: each is as probable as this effect.
+    double unseen = 0.0;
     for (const Effect& other : search.catalogue()) {
       if (other.id == effect.id) continue;
       if (!other.variants.empty() && !(slow_course && seenElsewhere(other))) continue;
@@ -480,8 +480,7 @@ Judgement judge(const ResidualProblem& problem, const EffectSearch& search, cons
       // What has moved stays where it is: no reason to foretell it badly. What stands in for a driver is believed as
       // far as it foretells.
       const bool stays = terms[k].variant.inputs[0].dynamics == Dynamics::Step;
-      const bool stands_in = terms[k].effect->driver_missing && drivenByLog(terms[k]);
-      const bool beyond = out.names[k].delta_evidence > beyond_held_out && !stays && !stands_in;
+      const bool beyond = out.names[k].delta_evidence > beyond_held_out && !stays && !drivenByStandIn(terms[k]);
       if (out.names[k].forced || (!enlarges && beyond)) continue;
       std::vector<ModelTerm> others = terms;
       others.erase(others.begin() + static_cast<std::ptrdiff_t>(k));

@@ -54,7 +54,7 @@ TEST(BesideTheFormula, WhatStandsInForADriverNeedsNoSecondEffect) {
     std::uint64_t base;
     std::uint64_t number;
   };
-  for (const Case& c : {Case{98'201, 20}, Case{98'201, 50}, Case{61'001, 25}, Case{61'001, 39}}) {
+  for (const Case& c : {Case{98'201, 20}, Case{98'201, 50}, Case{98'201, 69}, Case{61'001, 25}, Case{61'001, 39}}) {
     StudyOptions study;
     study.kind = StudyKind::Confounded;
     study.strength = 5.0;
@@ -65,6 +65,11 @@ TEST(BesideTheFormula, WhatStandsInForADriverNeedsNoSecondEffect) {
     DiscrepancyOptions options;
     options.suggest = false;
     const DiscrepancyResult result = findDiscrepancy(study::inputOf(simulateStudy(made, job).campaign), options, job);
+    if (c.number == 69) {  // what stands in leaves 0.41 of it: enough to doubt the name, and that is said
+      EXPECT_TRUE(namesIn(result) == "ambient.drift.x" || result.leftover.find("ambient.drift.x") != std::string::npos);
+      EXPECT_EQ(result.leftover.find("spindle.drift.x"), std::string::npos) << result.leftover;
+      continue;
+    }
     EXPECT_EQ(namesIn(result), "ambient.drift.x") << "at number " << c.number << " of " << c.base;
   }
 }
