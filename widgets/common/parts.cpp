@@ -358,7 +358,11 @@ class QuietTable : public QTableView {
     // Without rows there is nothing to scroll to, whatever the last title takes.
     const bool empty = model() == nullptr || model()->rowCount() == 0;
     if (stretched() < 0) setHorizontalScrollBarPolicy(empty ? Qt::ScrollBarAlwaysOff : Qt::ScrollBarAsNeeded);
-    if (auto* titles = dynamic_cast<TableTitles*>(horizontalHeader())) titles->fit(leastWidth(false));
+    if (auto* titles = dynamic_cast<TableTitles*>(horizontalHeader())) {
+      titles->fit(leastWidth(false));
+      if (const int last = titles->count() - 1; last >= 0 && stretched() < 0 && titles->stretchLastSection())
+        titles->fitLast(leastWidthOf(last, titles->narrow()));
+    }
     QTableView::updateGeometries();
     startWithAWholeRow();
     // Rows have got other heights.
@@ -437,15 +441,16 @@ class QuietTable : public QTableView {
   }
   /// All columns beside each other.
   [[nodiscard]] int leastWidth(bool narrow) const {
-    const int stretch = stretched();
     int width = 0;
     for (int c = 0; model() != nullptr && c < horizontalHeader()->count(); ++c) {
-      if (isColumnHidden(c)) continue;
-      const bool whole = holdsNumbers(c) || (stretch < 0 && !wordWrap());
-      const int title = titleWidth(c, narrow);
-      width += whole ? std::max(title, contentWidth(c)) : leastColumn(c, title);
+      if (!isColumnHidden(c)) width += leastWidthOf(c, narrow);
     }
     return width;
+  }
+  [[nodiscard]] int leastWidthOf(int column, bool narrow) const {
+    const bool whole = holdsNumbers(column) || (stretched() < 0 && !wordWrap());
+    const int title = titleWidth(column, narrow);
+    return whole ? std::max(title, contentWidth(column)) : leastColumn(column, title);
   }
   [[nodiscard]] int contentWidth(int column) const {
     widths_.resize(static_cast<std::size_t>(std::max(horizontalHeader()->count(), column + 1)), -1);

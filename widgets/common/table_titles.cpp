@@ -24,6 +24,7 @@ QFont titleFont() {
 TableTitles::TableTitles(QWidget* parent) : QHeaderView(Qt::Horizontal, parent) {
   setDefaultAlignment(Qt::AlignLeft | Qt::AlignVCenter);
   setSectionResizeMode(QHeaderView::ResizeToContents);
+  setDefaultSectionSize(minimumSectionSize());  // below it Qt would never shrink a last column that stretches
   setStretchLastSection(true);
   setHighlightSections(false);
 }
@@ -37,6 +38,10 @@ void TableTitles::fit(int width_px) {
   resizeSections();
   updateGeometry();
   table->updateGeometry();  // a second line takes its height
+}
+
+void TableTitles::fitLast(int least_px) {
+  if (sectionSize(count() - 1) < least_px) resizeSection(count() - 1, least_px);
 }
 
 QString TableTitles::title(int section, bool narrow) const {

@@ -14,6 +14,8 @@ class TableTitles : public QHeaderView {
   /// In two lines, each title as narrow as its words allow, where the columns have no room beside each other: they ask
   /// for `width_px` with titles in one line. For the updateGeometries of the table that the titles belong to.
   void fit(int width_px);
+  /// The last column, which takes what the others leave, is never narrower than `least_px`. For updateGeometries, too.
+  void fitLast(int least_px);
   [[nodiscard]] bool narrow() const { return narrow_; }
   /// What a title asks for in one line, or in two.
   [[nodiscard]] int titleWidth(int section, bool narrow) const;
