@@ -315,8 +315,10 @@ ControlChart controlChart(const std::vector<TrendPoint>& points, const std::vect
     const std::size_t end = std::min(to, from + options.baseline);
     if (end - from < 5) {
       if (b + 2 == begins.size() && to > from)
-        chart.notes.push_back(fmt::format("{} values since {}: control limits begin with the fifth.", to - from,
-                                          utcDay(points[from].time_s)));
+        chart.notes.push_back(to - from == 1 ? fmt::format("One value since {}: control limits begin with the fifth.",
+                                                           utcDay(points[from].time_s))
+                                             : fmt::format("{} values since {}: control limits begin with the fifth.",
+                                                           to - from, utcDay(points[from].time_s)));
       continue;
     }
     chart.limits = chart.limits || b + 2 == begins.size();

@@ -9716,6 +9716,10 @@ endgültig fehlgeschlagen: {}</translation>
         <source>has a size without the unit µm or µrad</source>
         <translation>hat eine Größe ohne die Einheit µm oder µrad</translation>
     </message>
+    <message>
+        <source>One value since {}: control limits begin with the fifth.</source>
+        <translation>Ein Wert seit {}: Eingriffsgrenzen beginnen mit dem fünften.</translation>
+    </message>
 </context>
 <context>
     <name>help</name>

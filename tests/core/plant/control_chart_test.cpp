@@ -18,8 +18,10 @@ using ::spindrift::testing::OnBothStores;
 using ::spindrift::testing::onDay;
 using ::spindrift::testing::refusal;
 using ::spindrift::testing::weeklyCampaign;
+using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::StartsWith;
 
 /// Weekly values: scatter 0.5, uncertainties between 0.1 and 1 that are told.
 std::vector<TrendPoint> record(std::uint64_t seed, std::size_t count, double (*level)(std::size_t)) {
@@ -134,7 +136,11 @@ TEST(ControlChart, ValuesWithLargeUncertaintyAlarmNobody) {
 
 TEST(ControlChart, FewOrEqualValuesAreNoError) {
   EXPECT_THAT(controlChart({}, {}, "EX_um").points, IsEmpty());
-  EXPECT_THAT(controlChart(record(1, 3, constantLevel), {}, "EX_um").notes, Not(IsEmpty()));
+  const auto notesOf = [](std::size_t count) {
+    return controlChart(record(1, count, constantLevel), {}, "EX_um").notes;
+  };
+  EXPECT_THAT(notesOf(3), Contains(StartsWith("3 values since 2")));
+  EXPECT_THAT(notesOf(1), Contains(StartsWith("One value since 2")));
   auto points = record(1, 20, constantLevel);
   for (TrendPoint& p : points) {
     p.value = 1.0;
