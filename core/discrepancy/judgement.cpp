@@ -126,7 +126,8 @@ double imitationRatio(const ResidualProblem& problem, const EffectSearch& search
     together_power += std::pow(together[u] / sigma, 2);
     left += std::pow(rest[u] / sigma, 2);
     if (told[static_cast<std::size_t>(c)]) left += std::pow(remaining[u] / sigma, 2);
-    left += std::max(0.0, std::pow(problem.noise.of(c).common / sigma, 2) - spread);
+    const double reading = problem.reading_sigma[u] * problem.noise.of(c).scale;
+    left += std::max(0.0, std::pow(problem.noise.of(c).common, 2) - spread * reading * reading) / (sigma * sigma);
   }
   const double power = std::min(own_power, together_power);
   // A step is a step: it has no dynamics that could be a little different.

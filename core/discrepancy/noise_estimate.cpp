@@ -55,6 +55,7 @@ struct ComponentData {
   Eigen::MatrixXd shifts;  // indicator of the state
   Eigen::MatrixXd smooth;  // patterns in space times hats in time, each of mean square 1 where it is not zero
   double mean_sigma = 1.0;
+  double reading_sigma = 1.0;      // of single readings: units may be the means of many
   double least_scale = 1e-4;       // own noise over what is stated: no instrument resolves less of what moves
   Eigen::MatrixXd hats;            // of a course in time that one series has for itself
   std::vector<double> own_course;  // size of it over the own noise, of each series; 0: none
@@ -337,6 +338,9 @@ ComponentData componentData(const ResidualProblem& problem, const Eigen::VectorX
     states.try_emplace(problem.epoch[static_cast<std::size_t>(u)], static_cast<Index>(states.size()));
   }
   out.mean_sigma = std::sqrt(out.sigma.squaredNorm() / static_cast<double>(n));
+  double of_readings = 0.0;
+  for (const Index u : out.units) of_readings += problem.reading_sigma[u] * problem.reading_sigma[u];
+  out.reading_sigma = std::sqrt(of_readings / static_cast<double>(n));
   constexpr double least_part_of_motion = 5e-4;
   double motion = 0.0;
   for (const auto& [from, to] : out.series) {
@@ -447,7 +451,7 @@ void estimateAt(const ResidualProblem& problem, ComponentEstimate& e, bool again
       best = value;
     }
   }
-  if (careful) white.shift = std::min(white.shift, careful_shift * std::exp(white.log_scale) * e.data.mean_sigma);
+  if (careful) white.shift = std::min(white.shift, careful_shift * std::exp(white.log_scale) * e.data.reading_sigma);
   Parameters chosen = white;
   Products chosen_products = products;
   // Correlated in time: tried from what is common among slow instruments to slow rooms.
@@ -692,7 +696,7 @@ NoiseProfiles noiseProfiles(const ResidualProblem& problem, const Eigen::VectorX
     }
     e.data.smooth.resize(readings, 0);
     e.data.hats.resize(readings, 0);
-    const double most_um = largest_shift * std::exp(e.p.log_scale) * e.data.mean_sigma;
+    const double most_um = largest_shift * std::exp(e.p.log_scale) * e.data.reading_sigma;
     out[c].noise_alone = profile(std::move(e));
     for (std::size_t i = 0; i + 1 < out[c].noise_alone.size(); ++i)
       if (sizes[i] > most_um) out[c].noise_alone[i] = out[c].noise_alone.back() + impossible;
@@ -747,7 +751,7 @@ std::vector<Component> movedTogether(const ResidualProblem& problem, const Noise
     double count = 0.0;
     for (Index u = 0; u < problem.size(); ++u) {
       if (problem.component[static_cast<std::size_t>(u)] != c) continue;
-      own += std::pow(problem.sigma[u] * noise.of(c).scale, 2);
+      own += std::pow(problem.reading_sigma[u] * noise.of(c).scale, 2);
       count += 1.0;
     }
     if (count > 0.0 && noise.of(c).common > largest_shift * std::sqrt(noise.varianceOfTails() * own / count))

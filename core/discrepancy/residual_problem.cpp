@@ -236,6 +236,7 @@ ResidualProblem::ResidualProblem(const DiscrepancyInput& input, const std::vecto
   std::vector<double> values;
   std::vector<double> predictions;
   std::vector<double> sigmas;
+  std::vector<double> reading_sigmas;
   node_begin_.push_back(0);
   struct Bin {
     double time = 0.0;
@@ -303,6 +304,7 @@ ResidualProblem::ResidualProblem(const DiscrepancyInput& input, const std::vecto
       values.push_back(value / count);
       predictions.push_back(prediction / count);
       sigmas.push_back(std::sqrt(power) / count);
+      reading_sigmas.push_back(std::sqrt(power / count));
       node_begin_.push_back(node_index_.size());
       unit_rows.push_back(std::move(observations));
     }
@@ -312,6 +314,7 @@ ResidualProblem::ResidualProblem(const DiscrepancyInput& input, const std::vecto
   y = Eigen::Map<Eigen::VectorXd>(values.data(), static_cast<Index>(values.size()));
   simulated = Eigen::Map<Eigen::VectorXd>(predictions.data(), y.size());
   sigma = Eigen::Map<Eigen::VectorXd>(sigmas.data(), y.size());
+  reading_sigma = Eigen::Map<Eigen::VectorXd>(reading_sigmas.data(), y.size());
   epoch_time_s.assign(static_cast<std::size_t>(epoch_count), 0.0);
   std::vector<int> counts(static_cast<std::size_t>(epoch_count), 0);
   for (std::size_t u = 0; u < epoch.size(); ++u) {
@@ -366,20 +369,27 @@ void ResidualProblem::makeNeighbourhoods() {
   neighbourhood = series;
   neighbourhood_count = seriesCount();
   constexpr Index few_readings = 3;
-  if (free_constants || size() >= few_readings * seriesCount()) return;
+  const bool merged = std::any_of(members_.begin(), members_.end(), [](const auto& points) { return !points.empty(); });
+  const bool wandering = !free_constants && size() < few_readings * seriesCount();
+  if (!merged && !wandering) return;
   constexpr std::size_t most_neighbourhoods = 12;
-  neighbourhood_count = 0;
-  std::vector<Eigen::Vector3d> at;
-  for (const DeviationQuery& q : place) at.push_back(q.position_mm);
-  for (const Component c : all_components) {
-    std::vector<std::size_t> members;
-    for (std::size_t u = 0; u < component.size(); ++u) {
-      if (component[u] == c) members.push_back(u);
-    }
-    if (members.empty()) continue;
-    const std::size_t each = (members.size() + most_neighbourhoods - 1) / most_neighbourhoods;
-    splitPoints(at, members, std::max<std::size_t>(each, 4), neighbourhood_count, neighbourhood);
+  // Series of merged points stay whole, readings at places of their own stand for themselves.
+  const auto itemOf = [&](std::size_t unit) { return merged ? static_cast<std::size_t>(series[unit]) : unit; };
+  std::vector<Eigen::Vector3d> at(merged ? static_cast<std::size_t>(seriesCount()) : place.size());
+  std::array<std::vector<std::size_t>, 6> members;
+  for (std::size_t u = 0; u < place.size(); ++u) {
+    at[itemOf(u)] = place[u].position_mm;
+    std::vector<std::size_t>& of_component = members[static_cast<std::size_t>(component[u])];
+    if (of_component.empty() || of_component.back() != itemOf(u)) of_component.push_back(itemOf(u));
   }
+  neighbourhood_count = 0;
+  std::vector<int> of_item(at.size(), 0);
+  for (const std::vector<std::size_t>& of_component : members) {
+    if (of_component.empty()) continue;
+    const std::size_t each = (of_component.size() + most_neighbourhoods - 1) / most_neighbourhoods;
+    splitPoints(at, of_component, merged ? each : std::max<std::size_t>(each, 4), neighbourhood_count, of_item);
+  }
+  for (std::size_t u = 0; u < place.size(); ++u) neighbourhood[u] = of_item[itemOf(u)];
 }
 
 Eigen::VectorXd ResidualProblem::toUnits(const Eigen::VectorXd& at_nodes) const {

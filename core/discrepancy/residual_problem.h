@@ -80,8 +80,9 @@ class ResidualProblem {
   std::vector<std::string> own_points;
   std::vector<std::string> series_point;  ///< the point of a series; of several points that are one unit: the first
   std::vector<double> time_s;             ///< mean time
-  /// Neighbourhood of each unit in which an effect may have another size: its series, or, where places were measured
-  /// once each, the units of its component nearby.
+  /// Neighbourhood of each unit in which an effect may have another size: its series; where places were measured once
+  /// each, the units of its component nearby; where points were merged, a few series nearby, for an effect is off in
+  /// space as smoothly as bodies deform, however many points show it.
   std::vector<int> neighbourhood;
   int neighbourhood_count = 0;
   std::vector<int> epoch;  ///< index of the thermal state (or time bin)
@@ -91,6 +92,7 @@ class ResidualProblem {
   Eigen::VectorXd y;                                ///< residual, um or urad
   Eigen::VectorXd simulated;                        ///< um or urad
   Eigen::VectorXd sigma;                            ///< stated, with what is shared
+  Eigen::VectorXd reading_sigma;                    ///< the same of one reading, where a unit is the mean of many
   std::vector<double> node_time_s;                  ///< distinct times at which drivers are needed, increasing
   std::vector<std::vector<std::size_t>> unit_rows;  ///< the observations that each unit is the mean of
   /// Mean of values at the nodes over the times of every unit.

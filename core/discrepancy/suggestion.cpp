@@ -256,9 +256,8 @@ class Planner {
     // Components that were measured, and how well one reading tells them.
     std::map<Component, std::pair<double, double>> sums;
     for (Index u = 0; u < problem.size(); ++u) {
-      const auto at = static_cast<std::size_t>(u);
-      auto& [sum, count] = sums[problem.component[at]];
-      sum += problem.sigma[u] * std::sqrt(static_cast<double>(problem.unit_rows[at].size()));
+      auto& [sum, count] = sums[problem.component[static_cast<std::size_t>(u)]];
+      sum += problem.reading_sigma[u];
       count += 1.0;
     }
     for (const auto& [component, sum] : sums) {

@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "core/discrepancy/discrepancy.h"
 #include "core/simulation/study_campaigns.h"
 #include "tests/benchmarks/discrepancy/hidden_effect_scoring.h"
+#include "tests/core/discrepancy/small_plant.h"
 
 namespace spindrift {
 namespace {
@@ -73,6 +75,19 @@ TEST(CommonNoise, NoEffectHidesInShiftsBesideOthers) {
     EXPECT_EQ(result.effects.size(), made.hidden.size()) << "at number " << number;
     // Of rivals the more probable one is named.
     for (const FoundEffect& e : result.effects) EXPECT_GT(e.confidence, 0.5) << e.id;
+  }
+}
+
+TEST(CommonNoise, IsNoCauseThatRemainsHoweverManyPointsShowIt) {
+  // Re-referenced states seen by 320 points: units are means of readings, and scatter less than states are shifted. The
+  // shifts were told as a cause that remains; and that an effect is the same at all points spoke against it.
+  for (const std::uint64_t seed : {3U, 4U}) {
+    const DiscrepancyInput input = small_plant::atManyPoints(seed, 320, 0.3);
+    const DiscrepancyResult result = small_plant::run(input);
+    ASSERT_EQ(result.effects.size(), 1U) << seed;
+    EXPECT_EQ(result.effects.front().id, "spindle.drift.y") << seed;
+    EXPECT_EQ(result.leftover, "") << seed;
+    for (const NoiseEstimate& noise : result.noise) EXPECT_NEAR(noise.common_um, 0.3, 0.15) << seed;
   }
 }
 

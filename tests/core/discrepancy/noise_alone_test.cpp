@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What noise alone explains is neither named nor told as left: shifts that all points of a state have in common, judged
 // over all axes, beside smooth courses that nobody knows.
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <algorithm>
 #include <array>
@@ -15,14 +15,18 @@
 namespace spindrift {
 namespace {
 
-constexpr std::size_t points = 8;
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+
+constexpr std::size_t few_points = 8;
 constexpr std::size_t states = 24;
 constexpr double own_um = 0.6;
 constexpr std::array<Component, 3> axes = {Component::EX, Component::EY, Component::EZ};
 constexpr std::array<bool, 6> translations = {true, true, true, false, false, false};
 
 /// Readings that hold own noise, shifts of X, Y, Z (standard deviations, um) and a slow wave along Z (amplitude, um).
-DiscrepancyInput readings(std::uint64_t seed, const std::array<double, 3>& shifts_um, double wave_um) {
+DiscrepancyInput readings(std::uint64_t seed, const std::array<double, 3>& shifts_um, double wave_um,
+                          std::size_t points = few_points) {
   Random random(seed);
   DiscrepancyInput in;
   for (std::size_t k = 0; k < states; ++k) {
@@ -81,6 +85,31 @@ TEST(NoiseAlone, ExplainsShiftsOfStatesAndNoSlowWave) {
   }
   EXPECT_EQ(shifts_told, 0);
   EXPECT_GE(waves_told, 27);
+}
+
+TEST(NoiseAlone, ShiftsOfStatesAreJudgedByReadingsWhereManyOfThemAreMerged) {
+  // Many points: a unit is the mean of dozens of readings. The shift of a state is a part of what a reading scatters,
+  // and many times what such a mean does.
+  constexpr std::size_t many_points = 1000;
+  constexpr double told = 10.0;
+  for (const std::uint64_t seed : {1U, 2U, 3U}) {
+    const DiscrepancyInput in = readings(seed, {0.4, 0.4, 0.4}, 0.0, many_points);
+    std::vector<std::size_t> rows(in.observations.rows.size());
+    for (std::size_t i = 0; i < rows.size(); ++i) rows[i] = i;
+    ResidualProblem problem(in, rows, 3000);
+    ASSERT_LT(problem.size(), static_cast<Eigen::Index>(rows.size() / 10));
+    problem.setNoise(estimateNoise(problem, problem.y, true));
+    // As drawn: the means of the states.
+    Eigen::VectorXd means = Eigen::VectorXd::Zero(states);
+    for (const Observation& o : in.observations.rows)
+      if (o.component == Component::EX) means[std::stoi(o.state.substr(1))] += o.value / many_points;
+    const double drawn = std::sqrt((means.array() - means.mean()).square().sum() / (states - 1.0));
+    EXPECT_NEAR(problem.noise.of(Component::EX).common, drawn, 0.1 * drawn) << seed;
+    EXPECT_THAT(movedTogether(problem, problem.noise), IsEmpty()) << seed;
+    EXPECT_LT(smoothOdds(noiseProfiles(problem, problem.y, translations)), told) << seed;
+    problem.noise.of(Component::EX).common = 1.3 * largest_shift * own_um;
+    EXPECT_THAT(movedTogether(problem, problem.noise), ElementsAre(Component::EX)) << seed;
+  }
 }
 
 TEST(NoiseAlone, ShiftsOfOtherAxesSpeakForThoseOfThis) {

@@ -139,6 +139,29 @@ inline DiscrepancyInput campaign(Hidden hidden, std::uint64_t seed, double stren
   return input;
 }
 
+/// What the small plant makes at its first point, at many points: own noise of readings and shifts of states, um.
+inline DiscrepancyInput atManyPoints(std::uint64_t seed, int points, double shift_um) {
+  std::vector<double> hidden;
+  const DiscrepancyInput few = campaign(Hidden::SpindleDrift, seed, 5.0, &hidden);
+  Random random(seed + 1000);
+  DiscrepancyInput many;
+  many.machine = few.machine;
+  many.log = few.log;
+  for (std::size_t i = 0; i < few.observations.rows.size(); ++i) {
+    if (few.observations.rows[i].point != "F1") continue;
+    const double shift = random.normal(0.0, shift_um);
+    for (int p = 0; p < points; ++p) {
+      Observation o = few.observations.rows[i];
+      o.point = "Q" + std::to_string(p);
+      o.position_mm = {20.0 * (p % 20), 25.0 * (p / 20 % 16), 40.0 * (p % 7)};
+      o.value = few.predicted[i] + hidden[i] + shift + random.normal(0.0, o.sigma);
+      many.observations.rows.push_back(o);
+      many.predicted.push_back(few.predicted[i]);
+    }
+  }
+  return many;
+}
+
 inline DiscrepancyResult run(const DiscrepancyInput& input, const DiscrepancyOptions& options = {}) {
   JobContext job;
   return findDiscrepancy(input, options, job);
