@@ -20,6 +20,7 @@ struct CompensationArguments {
   std::string points;
   std::string reference;
   std::string out;
+  std::string fanuc;
   CompensationRequest request;
 };
 
@@ -27,6 +28,7 @@ CommandResult runCompensate(const CompensationArguments& a, JobContext& job) {
   CompensationRequest request = a.request;
   if (a.model == "completed") request.source = CompensationSource::CompletedModel;
   if (a.model == "higher-order") request.source = CompensationSource::HigherOrder;
+  if (!a.fanuc.empty()) request.fanuc_step = a.fanuc == "positive" ? FanucStep::Positive : FanucStep::Negative;
   request.fit.points = splitList(a.points);
   if (!a.reference.empty()) {
     const std::vector<std::string> parts = splitList(a.reference);
@@ -123,8 +125,15 @@ void addCompensationCommands(CLI::App& app, CommandLine& line) {
   command
       ->add_option("--out", a->out,
                    "Folder for the files: corrections at points and on a grid, ISO 230-1 components, tables for "
-                   "LinuxCNC and Siemens")
+                   "LinuxCNC, Siemens and Fanuc, compensation values for Heidenhain")
       ->type_name("DIR");
+  command
+      ->add_option("--fanuc", a->fanuc,
+                   "Direction in which a positive value of Fanuc pitch error data moves the axis, as tried on the "
+                   "control; without it no such data are written")
+      ->check(CLI::IsMember({"positive", "negative"}));
+  command->add_option("--fanuc-unit", a->request.fanuc_unit_um, "Detection unit of the Fanuc control in µm")
+      ->capture_default_str();
   addVerify(app, line);
 }
 

@@ -115,8 +115,18 @@ std::string compensationGridCsv(const std::vector<CompensationNode>& nodes,
 
 AxisComponentTable axisComponents(const ErrorModel& model, const MachineDescription& machine, const std::string& axis,
                                   const Eigen::Vector3d& reference_mm, int count, const DeviationQuery& conditions) {
-  const int number = axisNumber(machine, axis);
+  axisNumber(machine, axis);
   requireCount(count, 10000);
+  const LinearAxis& description = *machine.findAxis(axis);
+  std::vector<double> positions;
+  for (int i = 0; i < count; ++i) positions.push_back(positionAt(description, i, count));
+  return axisComponentsAt(model, machine, axis, reference_mm, positions, conditions);
+}
+
+AxisComponentTable axisComponentsAt(const ErrorModel& model, const MachineDescription& machine, const std::string& axis,
+                                    const Eigen::Vector3d& reference_mm, const std::vector<double>& position_mm,
+                                    const DeviationQuery& conditions) {
+  const int number = axisNumber(machine, axis);
   const LinearAxis& description = *machine.findAxis(axis);
   AxisComponentTable table;
   table.axis = axis;
@@ -124,8 +134,8 @@ AxisComponentTable axisComponents(const ErrorModel& model, const MachineDescript
   query.point.clear();
   query.position_mm = reference_mm;
   const DeviationQuery reference = query;
-  for (int i = 0; i < count; ++i) {
-    query.position_mm[number] = positionAt(description, i, count);
+  for (const double position : position_mm) {
+    query.position_mm[number] = std::clamp(position, description.travel_mm[0], description.travel_mm[1]);
     std::array<double, 6> deviation{};
     std::array<double, 6> sigma{};
     for (const Component c : all_components) {
@@ -133,25 +143,31 @@ AxisComponentTable axisComponents(const ErrorModel& model, const MachineDescript
       deviation[static_cast<std::size_t>(c)] = change.value;
       sigma[static_cast<std::size_t>(c)] = change.sigma;
     }
-    table.position_mm.push_back(query.position_mm[number]);
+    table.position_mm.push_back(position);
     table.deviation.push_back(deviation);
     table.sigma.push_back(sigma);
   }
   return table;
 }
 
-std::string axisComponentsCsv(const AxisComponentTable& table, const std::optional<MeasuredBox>& measured) {
-  const auto axis = static_cast<Eigen::Index>(std::string_view("XYZ").find(table.axis));
-  SPINDRIFT_ASSERT(axis >= 0 && axis < 3, "a table of X, Y or Z");
-  const bool along = !measured || measured->extendsAlong(static_cast<int>(axis));
+std::array<bool, 6> knownErrors(const AxisComponentTable& table, const std::optional<MeasuredBox>& measured) {
+  const auto axis = static_cast<int>(std::string_view("XYZ").find(table.axis));
   const auto somewhere = [](const std::vector<std::array<double, 6>>& rows, std::size_t i) {
     return std::any_of(rows.begin(), rows.end(), [&](const auto& row) { return row[i] != 0.0; });
   };
   std::array<bool, 6> known{};
   for (std::size_t i = 0; i < 6; ++i) {
-    known[i] = !measured || (along && (i >= 3 || measured->displacement[i]) &&
+    known[i] = !measured || (measured->extendsAlong(axis) && (i >= 3 || measured->displacement[i]) &&
                              (somewhere(table.deviation, i) || somewhere(table.sigma, i)));
   }
+  return known;
+}
+
+std::string axisComponentsCsv(const AxisComponentTable& table, const std::optional<MeasuredBox>& measured) {
+  const auto axis = static_cast<Eigen::Index>(std::string_view("XYZ").find(table.axis));
+  SPINDRIFT_ASSERT(axis >= 0 && axis < 3, "a table of X, Y or Z");
+  const bool along = !measured || measured->extendsAlong(static_cast<int>(axis));
+  const std::array<bool, 6> known = knownErrors(table, measured);
   std::string header = "position_mm";
   std::string sigma_header;
   std::string unknown;

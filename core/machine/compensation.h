@@ -12,11 +12,7 @@
 //   Siemens         measuring system error compensation (MSEC, $AA_ENC_COMP) of one axis, mm. The value is added to the
 //                   position that the control reads, so that a positive one moves the axis in the negative direction
 //                   (SINUMERIK 840D sl, Extended Functions, K3): it is the deviation itself, zero at the reference.
-// Not written: Heidenhain .COM/.CMA, Siemens sag compensation (CEC, $AN_CEC) and Fanuc pitch error data. Of the first
-// two the columns are public, the sign of a value is not (K3 gives it for $AA_ENC_COMP alone); the last are steps in
-// detection units between points whose numbers, spacing and magnification (parameters 3620 to 3624) the machine builder
-// sets, and their sign is not in public documents either. The table of components (ISO 230-1) holds what the builder's
-// tools need for all three.
+// Tables of further controls: control_tables.h.
 #pragma once
 
 #include <array>
@@ -85,6 +81,15 @@ struct AxisComponentTable {
 [[nodiscard]] AxisComponentTable axisComponents(const ErrorModel& model, const MachineDescription& machine,
                                                 const std::string& axis, const Eigen::Vector3d& reference_mm, int count,
                                                 const DeviationQuery& conditions);
+/// The same at positions along the axis, which may lie beyond its travel: there the value at its end holds.
+[[nodiscard]] AxisComponentTable axisComponentsAt(const ErrorModel& model, const MachineDescription& machine,
+                                                  const std::string& axis, const Eigen::Vector3d& reference_mm,
+                                                  const std::vector<double>& position_mm,
+                                                  const DeviationQuery& conditions);
+/// Which of the six errors of the table are known: measured along the axis, of a displacement that was measured, and
+/// held by the model (neither it nor its uncertainty is zero all along the axis).
+[[nodiscard]] std::array<bool, 6> knownErrors(const AxisComponentTable& table,
+                                              const std::optional<MeasuredBox>& measured);
 /// position_mm,EXX_um,EYX_um,EZX_um,EAX_urad,EBX_urad,ECX_urad and sigma_ of each; with `measured` also extrapolated,
 /// and empty fields (said in a comment) where nothing was measured along the axis, for a displacement that was not
 /// measured, and for an error that the model knows nothing of (it and its uncertainty are zero all along the axis).

@@ -162,6 +162,7 @@ CompensationRequest CompensationTaskOptions::request() const {
   if (request.state.empty() && source != CompensationSource::CompletedModel) request.state = fit.state;
   request.positions = choice.positions;
   request.reference_mm = choice.reference_mm;
+  request.fanuc_step = choice.fanuc;
   request.fit.points = fit.points;
   request.fit.robust = fit.robust;
   request.added = effects.added;

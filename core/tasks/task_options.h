@@ -53,6 +53,9 @@ inline constexpr auto operator_name = "operator";   ///< sessions of earlier ver
 constexpr RobustLoss lastOf(RobustLoss /*unused*/) noexcept {
   return RobustLoss::Tukey;
 }
+constexpr FanucStep lastOf(FanucStep /*unused*/) noexcept {
+  return FanucStep::Negative;
+}
 constexpr CompensationSource lastOf(CompensationSource /*unused*/) noexcept {
   return CompensationSource::HigherOrder;
 }
@@ -127,6 +130,7 @@ struct CompensationChoice {
   std::string state;                         ///< empty: that of the fit, else the warmest
   int positions = 11;                        ///< along each axis
   std::optional<Eigen::Vector3d> reference_mm;
+  std::optional<FanucStep> fanuc;  ///< direction of a positive value, as tried on the control
 
   template <class Options, class Visitor>
   static void fields(Options& o, const Visitor& visit) {
@@ -134,6 +138,7 @@ struct CompensationChoice {
     visit("state", o.state);
     visit("positions", o.positions);
     visit("reference_mm", o.reference_mm);
+    visit("fanuc", o.fanuc);
   }
 };
 

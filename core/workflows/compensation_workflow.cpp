@@ -10,6 +10,7 @@
 #include "core/base/csv.h"
 #include "core/base/json_reader.h"
 #include "core/base/text.h"
+#include "core/base/units.h"
 #include "core/discrepancy/effect_model.h"
 #include "core/machine/table_polynomial.h"
 #include "core/math/distributions.h"
@@ -309,6 +310,113 @@ PreparedModel prepareCompleted(const Campaign& campaign, const ObservationSet& o
   return out;
 }
 
+/// Appends a file of the control unless there is nothing to write; what the control cannot take is said.
+template <class Write>
+void addControlFile(CompensationPlan& plan, CompensationFile file, const Write& write) {
+  try {
+    file.content = write();
+    if (!file.content.empty()) plan.files.push_back(std::move(file));
+  } catch (const InputError& e) {
+    plan.warnings.push_back(fmt::format("The file {} is not written: {}", file.name, e.sentence()));
+  }
+}
+
+/// What was written, read as the control reads it, has to leave the same deviation all along every base axis.
+void requireSameEverywhere(const std::vector<ControlTable>& read, const std::vector<AxisComponentTable>& components,
+                           double rounding_mm) {
+  for (const ControlTable& table : read) {
+    const auto of = std::find_if(components.begin(), components.end(),
+                                 [&](const AxisComponentTable& c) { return c.axis[0] == table.base; });
+    SPINDRIFT_ASSERT(of != components.end(), "a table of an axis of the machine");
+    double least = 1e300;
+    double most = -1e300;
+    for (std::size_t row = 0; row < of->position_mm.size(); ++row) {
+      const double left_mm = table.movementAt(of->position_mm[row]) +
+                             of->deviation[row][static_cast<std::size_t>(table.axis - 'X')] * mm_per_um;
+      least = std::min(least, left_mm);
+      most = std::max(most, left_mm);
+    }
+    SPINDRIFT_ASSERT(most - least <= rounding_mm, "a table leaves the deviation that it was made for");
+  }
+}
+
+/// Tables over the position of an axis that are written for all axes together, or in the control's own steps.
+void makeControlTables(const MachineDescription& machine, const PreparedModel& prepared,
+                       const CompensationRequest& request, const std::vector<AxisComponentTable>& components,
+                       const MeasuredBox& measured, const std::string& relative, CompensationPlan& plan) {
+  constexpr double text_rounding_mm = 2.1e-6;
+  addControlFile(
+      plan,
+      {"siemens_cec.ini",
+       "Siemens sag and angularity error compensation",
+       fmt::format("$AN_CEC in mm, one table for each axis that is moved over the position of another: the "
+                   "deviation itself, {}, zero at the reference position; a positive value moves the axis in "
+                   "the negative direction. With the tables of $AA_ENC_COMP all displacements are "
+                   "compensated. It stands in place of the tables that the control has. Beyond "
+                   "what was measured it is extrapolated; the ISO 230-1 tables say where.",
+                   relative),
+       {}},
+      [&] {
+        std::string text = siemensSagCompensation(components, measured);
+        requireSameEverywhere(readSiemensTables(text, "siemens_cec.ini"), components, text_rounding_mm);
+        return text;
+      });
+  int fanuc_number = 0;
+  for (const AxisComponentTable& table : components) {
+    addControlFile(
+        plan,
+        {fmt::format("heidenhain_{}_com.csv", table.axis),
+         fmt::format("Heidenhain compensation values over {}", table.axis),
+         fmt::format(
+             "Values of a .COM table in mm, to be entered in the control's table editor (the layout of the file "
+             "is not public): the deviation itself, {}, zero at the first position; positive where the axis "
+             "travels too far. In the .CMA it is the table of {}. Beyond what was "
+             "measured it is extrapolated; the ISO 230-1 tables say where.",
+             relative, table.axis),
+         {}},
+        [&] {
+          std::string text = heidenhainCompensation(table, measured);
+          if (!text.empty())
+            requireSameEverywhere(readHeidenhainTable(text, "heidenhain_com.csv"), {table}, text_rounding_mm);
+          return text;
+        });
+    const auto axis = static_cast<std::size_t>(table.axis[0] - 'X');
+    if (!request.fanuc_step || !knownErrors(table, measured)[axis]) continue;
+    const FanucPoints points = FanucPoints::over(*machine.findAxis(table.axis), request.positions, fanuc_number);
+    fanuc_number = points.last + 1;
+    addControlFile(
+        plan,
+        {fmt::format("fanuc_{}_pitch.nc", table.axis),
+         fmt::format("Fanuc pitch error data of {}", table.axis),
+         fmt::format("Program (G10 L50) with steps in detection units of {:g} µm from point to point, {}: a positive "
+                     "value moves the "
+                     "axis to {}, as stated. Points, distance and magnification are those of its head (parameters 3620 "
+                     "to 3624). It "
+                     "stands in place of the data that the control has. Beyond what was measured it is "
+                     "extrapolated; the ISO 230-1 tables say where.",
+                     request.fanuc_unit_um, relative, *request.fanuc_step == FanucStep::Positive ? "+" : "−"),
+         {}},
+        [&] {
+          const AxisComponentTable ends = axisComponentsAt(*prepared.everywhere, machine, table.axis, plan.reference_mm,
+                                                           points.position_mm(), prepared.conditions);
+          std::string text = fanucPitchError(ends, points, *request.fanuc_step, request.fanuc_unit_um);
+          requireSameEverywhere({readFanucPitchError(text, "fanuc_pitch.nc")}, {ends},
+                                1.001 * request.fanuc_unit_um * mm_per_um);
+          return text;
+        });
+  }
+  if (!request.fanuc_step) {
+    plan.not_written =
+        "No pitch error data are written for Fanuc until it is stated which way a positive value moves the axis: "
+        "public "
+        "documents give their format, not that. Set one value of 10 detection units on the control, move over its "
+        "section "
+        "in the positive direction with an indicator on the axis, and see whether it goes further than before "
+        "(positive) "
+        "or less far (negative).";
+  }
+}
+
 void makeFiles(const MachineDescription& machine, const PreparedModel& prepared, const CompensationRequest& request,
                CompensationPlan& plan) {
   const ErrorModel& model = *prepared.everywhere;
@@ -349,15 +457,16 @@ void makeFiles(const MachineDescription& machine, const PreparedModel& prepared,
        fmt::format("Correction to add to the command: minus the predicted deviation (actual minus commanded), {}.",
                    relative),
        compensationGridCsv(compensationGrid(model, grid, prepared.conditions), measured)});
+  std::vector<AxisComponentTable> components;
   for (const char* axis : axis_names) {
     if (machine.findAxis(axis) == nullptr) continue;
+    components.push_back(
+        axisComponents(model, machine, axis, plan.reference_mm, request.positions, prepared.conditions));
     plan.files.push_back(
         {fmt::format("iso230_{}.csv", axis), fmt::format("ISO 230-1 component errors of {}", axis),
          fmt::format("Deviation, not correction: actual minus commanded, {}, zero at the reference position.",
                      relative),
-         axisComponentsCsv(
-             axisComponents(model, machine, axis, plan.reference_mm, request.positions, prepared.conditions),
-             measured)});
+         axisComponentsCsv(components.back(), measured)});
     if (!measured.extendsAlong(axis[0] - 'X')) {
       plan.warnings.push_back(
           fmt::format("Nothing was measured along {}: no component error of that axis is stated, and there is no screw "
@@ -392,10 +501,7 @@ void makeFiles(const MachineDescription& machine, const PreparedModel& prepared,
                      relative, measured.low_mm[axis[0] - 'X'], measured.high_mm[axis[0] - 'X']),
          siemensCompensation(model, machine, axis, plan.reference_mm, request.positions, prepared.conditions)});
   }
-  plan.not_written =
-      "No tables are written for Heidenhain (.COM, .CMA), Fanuc (pitch error data) and the sag compensation of Siemens "
-      "(CEC): public documents do not state the sign of their values. The ISO 230-1 tables hold what the tools of the "
-      "machine builder need for them.";
+  makeControlTables(machine, prepared, request, components, measured, relative, plan);
 }
 
 void addNumbers(CompensationPlan& plan) {
@@ -491,6 +597,9 @@ std::string warmestState(const ObservationSet& observations) {
 void CompensationRequest::validate() const {
   if (positions < 2 || positions > 51) {
     throw InputError(fmt::format("{} positions along an axis are not allowed; allowed: 2 to 51.", positions));
+  }
+  if (!(fanuc_unit_um >= 0.001) || fanuc_unit_um > 100.0) {
+    throw InputError(fmt::format("a detection unit of {:g} µm is not allowed; allowed: 0.001 to 100.", fanuc_unit_um));
   }
   if (source == CompensationSource::CompletedModel && added.empty()) {
     throw InputError("the completed model needs at least one effect that was added; add one in the discrepancy.");

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "core/machine/compensation.h"
+#include "core/machine/control_tables.h"
 #include "core/machine/nine_parameter_model.h"
 #include "core/workflows/discrepancy_workflow.h"
 
@@ -33,6 +34,9 @@ struct CompensationRequest {
   std::vector<std::string> reject;
   int positions = 11;                           ///< along each axis, 2 to 51
   std::optional<Eigen::Vector3d> reference_mm;  ///< where the component tables pass through; else the middle of travel
+  /// Which way a positive value of Fanuc pitch error data moves the axis, as tried; without it none are written.
+  std::optional<FanucStep> fanuc_step;
+  double fanuc_unit_um = 1.0;  ///< detection unit of the Fanuc control
   /// Throws InputError.
   void validate() const;
 };

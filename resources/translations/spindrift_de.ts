@@ -9101,10 +9101,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>der Messplan</translation>
     </message>
     <message>
-        <source>No tables are written for Heidenhain (.COM, .CMA), Fanuc (pitch error data) and the sag compensation of Siemens (CEC): public documents do not state the sign of their values. The ISO 230-1 tables hold what the tools of the machine builder need for them.</source>
-        <translation>Für Heidenhain (.COM, .CMA), Fanuc (Steigungsfehlerdaten) und die Durchhangkompensation von Siemens (CEC) werden keine Tabellen geschrieben: Öffentliche Unterlagen nennen das Vorzeichen ihrer Werte nicht. Die Tabellen nach ISO 230-1 enthalten, was die Werkzeuge des Maschinenherstellers dafür brauchen.</translation>
-    </message>
-    <message>
         <source>{} of {} measurements were more than {:.0f} standard uncertainties off the prediction and were not used, the first at {:.6g} s ({:.2f} off); a second one in a row on the same side would have been.</source>
         <translation>{} von {} Messungen lagen mehr als {:.0f} Standardunsicherheiten neben der Vorhersage und wurden nicht verwendet, die erste bei {:.6g} s (um {:.2f}); eine zweite in Folge auf derselben Seite wäre verwendet worden.</translation>
     </message>
@@ -9720,6 +9716,98 @@ endgültig fehlgeschlagen: {}</translation>
         <source>One value since {}: control limits begin with the fifth.</source>
         <translation>Ein Wert seit {}: Eingriffsgrenzen beginnen mit dem fünften.</translation>
     </message>
+    <message>
+        <source>${} has {} numbers in brackets.</source>
+        <translation>${} hat {} Zahlen in Klammern.</translation>
+    </message>
+    <message>
+        <source>E{}{} changes by {:.4g} mm from {:g} to {:g} mm; allowed from one point to the next: 1/64 of their distance.</source>
+        <translation>E{}{} ändert sich um {:.4g} mm von {:g} bis {:g} mm; erlaubt von einem Punkt zum nächsten: 1/64 ihres Abstands.</translation>
+    </message>
+    <message>
+        <source>E{}{} is {:.4g} mm at {:g} mm; allowed in a sag compensation: -1 to 1 mm.</source>
+        <translation>E{}{} ist {:.4g} mm bei {:g} mm; erlaubt in einer Durchhangkompensation: -1 bis 1 mm.</translation>
+    </message>
+    <message>
+        <source>&quot;{}&quot; is not a number from 0 on.</source>
+        <translation>„{}“ ist keine Zahl ab 0.</translation>
+    </message>
+    <message>
+        <source>&quot;{}&quot; is not a number.</source>
+        <translation>„{}“ ist keine Zahl.</translation>
+    </message>
+    <message>
+        <source>&quot;{}&quot; is not an axis; allowed: X, Y or Z.</source>
+        <translation>„{}“ ist keine Achse; erlaubt: X, Y oder Z.</translation>
+    </message>
+    <message>
+        <source>a detection unit of {:g} µm is not allowed; allowed: above 0.</source>
+        <translation>eine Erfassungseinheit von {:g} µm ist nicht erlaubt; erlaubt: über 0.</translation>
+    </message>
+    <message>
+        <source>does not say over which axis its values are.</source>
+        <translation>sagt nicht, über welcher Achse seine Werte stehen.</translation>
+    </message>
+    <message>
+        <source>lacks its axis, its values or what its head says of them.</source>
+        <translation>fehlt die Achse, fehlen Werte oder was sein Kopf von ihnen sagt.</translation>
+    </message>
+    <message>
+        <source>over the position of</source>
+        <translation>über der Position von</translation>
+    </message>
+    <message>
+        <source>points {} to {} of {} are not allowed; allowed: 0 to 1023.</source>
+        <translation>die Punkte {} bis {} von {} sind nicht erlaubt; erlaubt: 0 bis 1023.</translation>
+    </message>
+    <message>
+        <source>table {} lacks its axes, its values or their distance.</source>
+        <translation>Tabelle {} fehlen Achsen, Werte oder deren Abstand.</translation>
+    </message>
+    <message>
+        <source>the compensation of {} changes by {} detection units from {:g} to {:g} mm; allowed in pitch error data: -128 to 127.</source>
+        <translation>die Kompensation von {} ändert sich um {} Erfassungseinheiten von {:g} bis {:g} mm; erlaubt in Steigungsfehlerdaten: -128 bis 127.</translation>
+    </message>
+    <message>
+        <source>{} is not allowed; allowed: -128 to 127.</source>
+        <translation>{} ist nicht erlaubt; erlaubt: -128 bis 127.</translation>
+    </message>
+    <message>
+        <source>Fanuc pitch error data of {}</source>
+        <translation>Fanuc-Steigungsfehlerdaten von {}</translation>
+    </message>
+    <message>
+        <source>Heidenhain compensation values over {}</source>
+        <translation>Heidenhain-Korrekturwerte über {}</translation>
+    </message>
+    <message>
+        <source>No pitch error data are written for Fanuc until it is stated which way a positive value moves the axis: public documents give their format, not that. Set one value of 10 detection units on the control, move over its section in the positive direction with an indicator on the axis, and see whether it goes further than before (positive) or less far (negative).</source>
+        <translation>Für Fanuc werden keine Steigungsfehlerdaten geschrieben, solange nicht angegeben ist, wohin ein positiver Wert die Achse bewegt: Öffentliche Unterlagen geben ihr Format an, das nicht. An der Steuerung einen Wert auf 10 Erfassungseinheiten setzen, mit einer Messuhr an der Achse in positiver Richtung über seinen Abschnitt fahren und sehen, ob sie weiter geht als zuvor (positiv) oder weniger weit (negativ).</translation>
+    </message>
+    <message>
+        <source>Siemens sag and angularity error compensation</source>
+        <translation>Siemens-Durchhang- und Winkligkeitsfehlerkompensation</translation>
+    </message>
+    <message>
+        <source>a detection unit of {:g} µm is not allowed; allowed: 0.001 to 100.</source>
+        <translation>eine Erfassungseinheit von {:g} µm ist nicht erlaubt; erlaubt: 0,001 bis 100.</translation>
+    </message>
+    <message>
+        <source>$AN_CEC in mm, one table for each axis that is moved over the position of another: the deviation itself, {}, zero at the reference position; a positive value moves the axis in the negative direction. With the tables of $AA_ENC_COMP all displacements are compensated. It stands in place of the tables that the control has. Beyond what was measured it is extrapolated; the ISO 230-1 tables say where.</source>
+        <translation>$AN_CEC in mm, eine Tabelle für jede Achse, die über der Position einer anderen bewegt wird: die Abweichung selbst, {}, null an der Bezugsposition; ein positiver Wert bewegt die Achse in negativer Richtung. Mit den Tabellen von $AA_ENC_COMP sind alle Verschiebungen kompensiert. Sie steht anstelle der Tabellen, die die Steuerung hat. Jenseits des Gemessenen ist sie extrapoliert; die Tabellen nach ISO 230-1 sagen, wo.</translation>
+    </message>
+    <message>
+        <source>Program (G10 L50) with steps in detection units of {:g} µm from point to point, {}: a positive value moves the axis to {}, as stated. Points, distance and magnification are those of its head (parameters 3620 to 3624). It stands in place of the data that the control has. Beyond what was measured it is extrapolated; the ISO 230-1 tables say where.</source>
+        <translation>Programm (G10 L50) mit Schritten in Erfassungseinheiten von {:g} µm von Punkt zu Punkt, {}: Ein positiver Wert bewegt die Achse nach {}, wie angegeben. Punkte, Abstand und Faktor sind die seines Kopfes (Parameter 3620 bis 3624). Es steht anstelle der Daten, die die Steuerung hat. Jenseits des Gemessenen ist es extrapoliert; die Tabellen nach ISO 230-1 sagen, wo.</translation>
+    </message>
+    <message>
+        <source>Values of a .COM table in mm, to be entered in the control&apos;s table editor (the layout of the file is not public): the deviation itself, {}, zero at the first position; positive where the axis travels too far. In the .CMA it is the table of {}. Beyond what was measured it is extrapolated; the ISO 230-1 tables say where.</source>
+        <translation>Werte einer .COM-Tabelle in mm, im Tabelleneditor der Steuerung einzugeben (der Aufbau der Datei ist nicht öffentlich): die Abweichung selbst, {}, null an der ersten Position; positiv, wo die Achse zu weit verfährt. In der .CMA ist es die Tabelle von {}. Jenseits des Gemessenen ist es extrapoliert; die Tabellen nach ISO 230-1 sagen, wo.</translation>
+    </message>
+    <message>
+        <source>The file {} is not written: {}</source>
+        <translation>Die Datei {} wird nicht geschrieben: {}</translation>
+    </message>
 </context>
 <context>
     <name>help</name>
@@ -10260,12 +10348,20 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Gemessen mit 14.000 Kampagnen auf PostgreSQL 15, jede mit einer Anpassung von neun Parametern, ihrer Kovarianz und einer Datei: 2,2 kB je Kampagne (Kampagne 0,21, Dateien 0,23, Ergebnis 0,81, Parameter 0,93 kB, einschließlich Indizes); SQLite 1,6 kB. Die folgenden Zahlen sind daraus berechnet.</translation>
     </message>
     <message>
-        <source>No tables are written for Heidenhain (.COM, .CMA), Fanuc (pitch error data) and the sag compensation of Siemens (CEC): public documents do not state the sign of their values. The ISO 230-1 tables hold what the tools of the machine builder need for them.</source>
-        <translation>Für Heidenhain (.COM, .CMA), Fanuc (Steigungsfehlerdaten) und die Durchhangkompensation von Siemens (CEC) werden keine Tabellen geschrieben: Öffentliche Unterlagen nennen das Vorzeichen ihrer Werte nicht. Die Tabellen nach ISO 230-1 enthalten, was die Werkzeuge des Maschinenherstellers dafür brauchen.</translation>
-    </message>
-    <message>
         <source>An instrument that is still warming up measures itself. Measure one point every 5 minutes, then press &lt;b&gt;Check the drift&lt;/b&gt;: its fit says whether the instrument has settled.</source>
         <translation>Ein Messgerät, das noch warm wird, misst sich selbst. Alle 5 Minuten einen Punkt messen, dann &lt;b&gt;Drift prüfen&lt;/b&gt; drücken: ihre Anpassung sagt, ob das Messgerät eingelaufen ist.</translation>
+    </message>
+    <message>
+        <source>Fanuc: public documents do not say which way a positive value of the pitch error data moves the axis. Try it once, as the choice &lt;i&gt;Fanuc&lt;/i&gt; describes, and state it; then the data are written.</source>
+        <translation>Fanuc: Öffentliche Unterlagen sagen nicht, wohin ein positiver Wert der Steigungsfehlerdaten die Achse bewegt. Einmal ausprobieren, wie es die Auswahl &lt;i&gt;Fanuc&lt;/i&gt; beschreibt, und angeben; dann werden die Daten geschrieben.</translation>
+    </message>
+    <message>
+        <source>Heidenhain: the values are entered in the control&apos;s table editor; the layout of its files is not public.</source>
+        <translation>Heidenhain: Die Werte werden im Tabelleneditor der Steuerung eingegeben; der Aufbau ihrer Dateien ist nicht öffentlich.</translation>
+    </message>
+    <message>
+        <source>Tables stand in place of those that the control has: save these first, and add them where they are to hold.</source>
+        <translation>Tabellen stehen anstelle derer, die die Steuerung hat: diese zuerst sichern und dazuzählen, wo sie gelten sollen.</translation>
     </message>
 </context>
 <context>
@@ -12399,6 +12495,34 @@ einsatz</translation>
     <message>
         <source>Measured %1; remains: %2</source>
         <translation>Gemessen %1; übrig: %2</translation>
+    </message>
+    <message>
+        <source>not tried</source>
+        <translation>nicht versucht</translation>
+    </message>
+    <message>
+        <source>+ moves to +</source>
+        <translation>+ geht nach +</translation>
+    </message>
+    <message>
+        <source>+ moves to −</source>
+        <translation>+ geht nach −</translation>
+    </message>
+    <message>
+        <source>Direction in which a positive value of Fanuc pitch error data moves the axis</source>
+        <translation>Richtung, in die ein positiver Wert der Fanuc-Steigungsfehlerdaten die Achse bewegt</translation>
+    </message>
+    <message>
+        <source>Public documents do not say which way a positive value of Fanuc pitch error data moves the axis. Set one value of 10 detection units on the control, move over its section in the positive direction with an indicator on the axis, and see whether it goes further than before (+ moves to +) or less far (+ moves to −).</source>
+        <translation>Öffentliche Unterlagen sagen nicht, wohin ein positiver Wert der Fanuc-Steigungsfehlerdaten die Achse bewegt. An der Steuerung einen Wert auf 10 Erfassungseinheiten setzen, mit einer Messuhr an der Achse in positiver Richtung über seinen Abschnitt fahren und sehen, ob sie weiter geht als zuvor (+ geht nach +) oder weniger weit (+ geht nach −).</translation>
+    </message>
+    <message>
+        <source>Fanuc</source>
+        <translation>Fanuc</translation>
+    </message>
+    <message>
+        <source>state the direction of Fanuc pitch error data</source>
+        <translation>Richtung der Fanuc-Steigungsfehlerdaten angeben</translation>
     </message>
 </context>
 <context>

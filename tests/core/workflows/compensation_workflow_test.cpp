@@ -110,12 +110,88 @@ TEST(CompensationPlan, StatesWhatItDoesOnValuesThatTrainedNothing) {
   EXPECT_TRUE(all.json()["unseen"]["rms_after_um"].is_number());
 }
 
-TEST(CompensationPlan, SaysWhichControlsGetNoTable) {
-  const CompensationPlan plan = planOf(campaignOf(0.0, false, 4), CompensationSource::NineParameters);
-  for (const char* control : {"Heidenhain", "Fanuc", "CEC"}) {
-    EXPECT_THAT(plan.summary(), HasSubstr(control));
-    EXPECT_THAT(plan.json()["not_written"].get<std::string>(), HasSubstr(control));
+const CompensationFile* fileOf(const CompensationPlan& plan, const std::string& name) {
+  const auto at =
+      std::find_if(plan.files.begin(), plan.files.end(), [&](const CompensationFile& f) { return f.name == name; });
+  return at == plan.files.end() ? nullptr : &*at;
+}
+
+/// What the tables leave of the deviation of EX, EY, EZ at places of the plane z = 0, mm: its largest change.
+double leftBy(const std::vector<ControlTable>& tables, const ErrorModel& model) {
+  Eigen::Vector3d least = Eigen::Vector3d::Constant(1e300);
+  Eigen::Vector3d most = -least;
+  for (const double x : {0.0, 100.0, 200.0, 300.0}) {
+    for (const double y : {0.0, 130.0 / 3.0, 130.0}) {
+      DeviationQuery query;
+      query.state = "M1";
+      query.position_mm = {x, y, 0.0};
+      Eigen::Vector3d left;
+      for (int i = 0; i < 3; ++i) left[i] = 1e-3 * model.predict(query, static_cast<Component>(i)).value;
+      for (const ControlTable& t : tables) left[t.axis - 'X'] += t.movementAt(t.base == 'X' ? x : y);
+      least = least.cwiseMin(left);
+      most = most.cwiseMax(left);
+    }
   }
+  return (most - least).maxCoeff();
+}
+
+// Nine parameters have no product of x and y: a table for each displacement over each axis takes all of them.
+TEST(CompensationPlan, TablesOfAControlTogetherTakeAllDisplacements) {
+  const Campaign campaign = campaignOf(0.0, false, 4);
+  NineParameterOptions options;
+  options.state = "M1";
+  const NineParameterModel model = fitNineParameters(*campaign.observations, options).predictingModel();
+  EXPECT_GT(leftBy({}, model), 0.02);
+  CompensationRequest request;
+  request.positions = 4;
+  request.reference_mm = Eigen::Vector3d(150.0, 65.0, 0.0);
+  request.fanuc_step = FanucStep::Negative;
+  JobContext job;
+  const CompensationPlan plan = planCompensation(campaign, *campaign.observations, request, job);
+  std::vector<ControlTable> siemens;
+  std::vector<ControlTable> heidenhain;
+  std::vector<ControlTable> fanuc;
+  for (const CompensationFile& f : plan.files) {
+    if (f.name.rfind("siemens_", 0) == 0)
+      for (const ControlTable& t : readSiemensTables(f.content, f.name)) siemens.push_back(t);
+    if (f.name.rfind("heidenhain_", 0) == 0)
+      for (const ControlTable& t : readHeidenhainTable(f.content, f.name)) heidenhain.push_back(t);
+    if (f.name.rfind("fanuc_", 0) == 0) fanuc.push_back(readFanucPitchError(f.content, f.name));
+  }
+  EXPECT_EQ(siemens.size(), 6U);
+  EXPECT_EQ(heidenhain.size(), 6U);
+  EXPECT_LT(leftBy(siemens, model), 4e-6);
+  EXPECT_LT(leftBy(heidenhain, model), 4e-6);
+  ASSERT_EQ(fanuc.size(), 2U) << "X and Y; nothing was measured along Z";
+  EXPECT_EQ(fanuc[1].axis, 'Y');
+  EXPECT_EQ(plan.not_written, "");
+  // The numbers of the axes do not meet.
+  EXPECT_THAT(fileOf(plan, "fanuc_X_pitch.nc")->content, HasSubstr("(LAST 3 PARAMETER 3622)"));
+  EXPECT_THAT(fileOf(plan, "fanuc_Y_pitch.nc")->content, HasSubstr("(FIRST 5 PARAMETER 3621)"));
+}
+
+TEST(CompensationPlan, WritesNoFanucDataBeforeTheirDirectionIsStated) {
+  const CompensationPlan plan = planOf(campaignOf(0.0, false, 4), CompensationSource::NineParameters);
+  EXPECT_EQ(fileOf(plan, "fanuc_X_pitch.nc"), nullptr);
+  EXPECT_THAT(plan.summary(), HasSubstr("No pitch error data are written for Fanuc until it is stated"));
+  EXPECT_THAT(plan.json()["not_written"].get<std::string>(), HasSubstr("with an indicator on the axis"));
+}
+
+TEST(CompensationPlan, SaysWhatAControlCannotTake) {
+  Campaign campaign = campaignOf(0.0, false, 4);
+  for (Observation& o : campaign.observations->rows)
+    if (o.state == "M1" && o.component == Component::EX) o.value += 4.0 * o.position_mm.x();  // 1.2 mm over X
+  CompensationRequest request;
+  request.positions = 3;
+  request.fanuc_step = FanucStep::Positive;
+  JobContext job;
+  const CompensationPlan plan = planCompensation(campaign, *campaign.observations, request, job);
+  EXPECT_EQ(fileOf(plan, "fanuc_X_pitch.nc"), nullptr);
+  EXPECT_NE(fileOf(plan, "fanuc_Y_pitch.nc"), nullptr);
+  EXPECT_THAT(plan.warnings,
+              Contains(HasSubstr("The file fanuc_X_pitch.nc is not written: the compensation of X changes by")));
+  request.fanuc_unit_um = 0.0;
+  EXPECT_THROW((void)planCompensation(campaign, *campaign.observations, request, job), InputError);
 }
 
 TEST(CompensationPlan, StatesNothingOfAnAxisThatWasNotMeasured) {

@@ -94,6 +94,17 @@ CompensatePage::CompensatePage(PageContext page_context, QWidget* parent)
     reference_[i]->setMinimumWidth(84);
     file_choices->addWidget(reference_[i]);
   }
+  fanuc_ = new QComboBox;
+  fanuc_->addItem(tr("not tried"), -1);
+  fanuc_->addItem(tr("+ moves to +"), static_cast<int>(FanucStep::Positive));
+  fanuc_->addItem(tr("+ moves to −"), static_cast<int>(FanucStep::Negative));
+  fanuc_->setAccessibleName(tr("Direction in which a positive value of Fanuc pitch error data moves the axis"));
+  fanuc_->setToolTip(tr(
+      "Public documents do not say which way a positive value of Fanuc pitch error data moves the axis. Set one value "
+      "of 10 detection units on the control, move over its section in the positive direction with an indicator on the "
+      "axis, and see whether it goes further than before (+ moves to +) or less far (+ moves to −)."));
+  file_choices->addWidget(new QLabel(tr("Fanuc")));
+  file_choices->addWidget(fanuc_);
   head->body()->addLayout(choices);
   auto* tiles = new QHBoxLayout;
   tiles->setSpacing(24);
@@ -172,6 +183,12 @@ CompensatePage::CompensatePage(PageContext page_context, QWidget* parent)
                       [this](CompensationChoice& o) { o.positions = positions_->value(); });
     }
   });
+  connect(fanuc_, &QComboBox::activated, this, [this](int) {
+    options_.change(tr("state the direction of Fanuc pitch error data"), [this](CompensationChoice& o) {
+      const int chosen = fanuc_->currentData().toInt();
+      o.fanuc = chosen < 0 ? std::optional<FanucStep>() : static_cast<FanucStep>(chosen);
+    });
+  });
   for (QDoubleSpinBox* box : reference_) {
     connect(box, &QDoubleSpinBox::editingFinished, this, [this] {
       if (options_.filling() || !plan_) return;
@@ -231,6 +248,7 @@ void CompensatePage::fillChoices() {
     state_->setCurrentIndex(index >= 0 ? index : state_->count() - 1);
   }
   positions_->setValue(r.positions);
+  fanuc_->setCurrentIndex(fanuc_->findData(r.fanuc_step ? static_cast<int>(*r.fanuc_step) : -1));
   const MachineDescription& machine = session().campaign()->machine;
   for (std::size_t i = 0; i < 3; ++i) {
     const LinearAxis* axis = machine.findAxis(axis_words[i]);

@@ -40,6 +40,7 @@ class CompensatePage : public Page {
   /// Writes all files into a folder and says so.
   void exportFiles(const QString& folder);
   [[nodiscard]] const CompensationPlan* plan() const { return plan_.get(); }
+  [[nodiscard]] QComboBox* fanucBox() const { return fanuc_; }
   [[nodiscard]] QComboBox* stateBox() const { return state_; }
   [[nodiscard]] QTableView* pointTable() const { return point_table_; }
   [[nodiscard]] View3D* view() const { return view_; }
@@ -63,6 +64,7 @@ class CompensatePage : public Page {
   QComboBox* state_;
   QSpinBox* positions_;
   std::array<QDoubleSpinBox*, 3> reference_{};
+  QComboBox* fanuc_;
   NumberTile* before_;
   NumberTile* after_;
   NumberTile* expected_;

@@ -104,6 +104,24 @@ TEST_F(CompensatePageTest, CorrectsWhatWasMeasuredAndWritesFiles) {
   EXPECT_FALSE(plan.limitation.empty());
 }
 
+TEST_F(CompensatePageTest, FanucDirectionIsStatedKeptAndUndone) {
+  addGrowth();
+  page_->runAll();
+  wait();
+  QComboBox* box = page_->fanucBox();
+  EXPECT_EQ(box->currentData().toInt(), -1) << "nobody has tried it";
+  EXPECT_FALSE(page_->plan()->not_written.empty());
+  box->setCurrentIndex(box->findData(static_cast<int>(FanucStep::Negative)));
+  Q_EMIT box->activated(box->currentIndex());
+  wait();
+  page_->runAll();
+  wait();
+  EXPECT_TRUE(page_->plan()->not_written.empty());
+  window_->undoStack().undo();
+  wait();
+  EXPECT_EQ(box->currentData().toInt(), -1);
+}
+
 TEST_F(CompensatePageTest, TurnsOutdatedWhenTheModelChangesAndComesBackWithUndo) {
   addGrowth();
   page_->runAll();
