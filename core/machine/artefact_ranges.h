@@ -7,6 +7,9 @@
 namespace spindrift {
 
 constexpr std::array<double, 2> artefact_expansion_range_um_per_m_K{-5.0, 100.0};
+/// Size of an expansion that is not zero, at least: glass ceramics are certified to some 0.01 um/(m K), and steel
+/// is 1.15e-5 in 1/K.
+constexpr double least_artefact_expansion_um_per_m_K = 0.001;
 constexpr std::array<double, 2> artefact_temperature_range_degC{-20.0, 80.0};
 
 }  // namespace spindrift

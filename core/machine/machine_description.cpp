@@ -93,6 +93,12 @@ Artefact parseArtefact(const JsonNode& node) {
     return value;
   };
   artefact.expansion_um_per_m_K = within("expansion_um_per_m_K", artefact_expansion_range_um_per_m_K);
+  if (const auto& given = artefact.expansion_um_per_m_K;
+      given && *given != 0.0 && std::abs(*given) < least_artefact_expansion_um_per_m_K) {
+    node.at("expansion_um_per_m_K")
+        .reject(fmt::format("0, or a size of at least {:g}: µm/(m·K), where steel has 11.5, not 1/K",
+                            least_artefact_expansion_um_per_m_K));
+  }
   artefact.temperature_degC = within("temperature_degC", artefact_temperature_range_degC);
   if (const auto u = node.find("certificate_uncertainty_um")) {
     artefact.certificate_uncertainty_um = u->nonNegativeNumber();

@@ -9808,6 +9808,10 @@ endgültig fehlgeschlagen: {}</translation>
         <source>The file {} is not written: {}</source>
         <translation>Die Datei {} wird nicht geschrieben: {}</translation>
     </message>
+    <message>
+        <source>0, or a size of at least {:g}: µm/(m·K), where steel has 11.5, not 1/K</source>
+        <translation>0, oder ein Betrag von mindestens {:g}: µm/(m·K), worin Stahl 11,5 hat, nicht 1/K</translation>
+    </message>
 </context>
 <context>
     <name>help</name>

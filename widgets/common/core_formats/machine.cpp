@@ -9,6 +9,7 @@
 std::span<const char* const> spindrift::gui::core_formats::machine() noexcept {
   static const char* const formats[] = {
     QT_TRANSLATE_NOOP("core", "${} has {} numbers in brackets."),
+    QT_TRANSLATE_NOOP("core", "0, or a size of at least {:g}: µm/(m·K), where steel has 11.5, not 1/K"),
     QT_TRANSLATE_NOOP("core", "2 and more"),
     QT_TRANSLATE_NOOP("core", "3 and more"),
     QT_TRANSLATE_NOOP("core", "8 and more"),
