@@ -9778,7 +9778,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>Heidenhain compensation values over {}</source>
-        <translation>Heidenhain-Korrekturwerte über {}</translation>
+        <translation>Heidenhain-Kompensationswerte über {}</translation>
     </message>
     <message>
         <source>No pitch error data are written for Fanuc until it is stated which way a positive value moves the axis: public documents give their format, not that. Set one value of 10 detection units on the control, move over its section in the positive direction with an indicator on the axis, and see whether it goes further than before (positive) or less far (negative).</source>
