@@ -127,13 +127,15 @@ void addCompensationCommands(CLI::App& app, CommandLine& line) {
                    "Folder for the files: corrections at points and on a grid, ISO 230-1 components, tables for "
                    "LinuxCNC, Siemens and Fanuc, compensation values for Heidenhain")
       ->type_name("DIR");
-  command
-      ->add_option("--fanuc", a->fanuc,
-                   "Direction in which a positive value of Fanuc pitch error data moves the axis, as tried on the "
-                   "control; without it no such data are written")
-      ->check(CLI::IsMember({"positive", "negative"}));
+  CLI::Option* fanuc =
+      command
+          ->add_option("--fanuc", a->fanuc,
+                       "Direction in which a positive value of Fanuc pitch error data moves the axis, as tried on the "
+                       "control; without it no such data are written")
+          ->check(CLI::IsMember({"positive", "negative"}));
   command->add_option("--fanuc-unit", a->request.fanuc_unit_um, "Detection unit of the Fanuc control in µm")
-      ->capture_default_str();
+      ->capture_default_str()
+      ->needs(fanuc);
   addVerify(app, line);
 }
 

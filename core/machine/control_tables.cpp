@@ -311,10 +311,10 @@ std::string fanucPitchError(const AxisComponentTable& table, const FanucPoints& 
   for (std::size_t row = 1; row < ends_mm.size(); ++row) {
     const long value = units(row) - units(row - 1);
     if (value < -128 || value > 127) {
-      throw InputError(fmt::format(
-          "the compensation of {} changes by {} detection units from {:g} to {:g} mm; allowed in pitch error "
-          "data: -128 to 127.",
-          table.axis, value, ends_mm[row - 1], ends_mm[row]));
+      throw InputError(
+          fmt::format("the compensation of {} changes by {} detection units from {:g} to {:g} mm; allowed in pitch "
+                      "error data: -128 to 127.",
+                      table.axis, value, ends_mm[row - 1], ends_mm[row]));
     }
     largest = std::max(largest, std::abs(value));
     data += fmt::format("N{} R{}\n", 10000 + points.first + static_cast<int>(row) - 1, value);

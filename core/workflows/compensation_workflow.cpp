@@ -349,12 +349,12 @@ void makeControlTables(const MachineDescription& machine, const PreparedModel& p
       plan,
       {"siemens_cec.ini",
        "Siemens sag and angularity error compensation",
-       fmt::format("$AN_CEC in mm, one table for each axis that is moved over the position of another: the "
-                   "deviation itself, {}, zero at the reference position; a positive value moves the axis in "
-                   "the negative direction. With the tables of $AA_ENC_COMP all displacements are "
-                   "compensated. It stands in place of the tables that the control has. Beyond "
-                   "what was measured it is extrapolated; the ISO 230-1 tables say where.",
-                   relative),
+       fmt::format(
+           "$AN_CEC in mm, one table for each axis that is moved over the position of another: the deviation itself, "
+           "{}, zero at the reference position; a positive value moves the axis in the negative direction. With the "
+           "tables of $AA_ENC_COMP all displacements are compensated. It stands in place of the tables that the "
+           "control has. Beyond what was measured it is extrapolated; the ISO 230-1 tables say where.",
+           relative),
        {}},
       [&] {
         std::string text = siemensSagCompensation(components, measured);
@@ -363,23 +363,22 @@ void makeControlTables(const MachineDescription& machine, const PreparedModel& p
       });
   int fanuc_number = 0;
   for (const AxisComponentTable& table : components) {
-    addControlFile(
-        plan,
-        {fmt::format("heidenhain_{}_com.csv", table.axis),
-         fmt::format("Heidenhain compensation values over {}", table.axis),
-         fmt::format(
-             "Values of a .COM table in mm, to be entered in the control's table editor (the layout of the file "
-             "is not public): the deviation itself, {}, zero at the first position; positive where the axis "
-             "travels too far. In the .CMA it is the table of {}. Beyond what was "
-             "measured it is extrapolated; the ISO 230-1 tables say where.",
-             relative, table.axis),
-         {}},
-        [&] {
-          std::string text = heidenhainCompensation(table, measured);
-          if (!text.empty())
-            requireSameEverywhere(readHeidenhainTable(text, "heidenhain_com.csv"), {table}, text_rounding_mm);
-          return text;
-        });
+    addControlFile(plan,
+                   {fmt::format("heidenhain_{}_com.csv", table.axis),
+                    fmt::format("Heidenhain compensation values over {}", table.axis),
+                    fmt::format("Values of a .COM table in mm, to be entered in the control's table editor (the layout "
+                                "of the file is not public): the deviation itself, {}, zero at the first position; "
+                                "positive where the axis travels too far. In the .CMA it is the table of {}. Beyond "
+                                "what was measured it is extrapolated; the ISO 230-1 tables say where.",
+                                relative, table.axis),
+                    {}},
+                   [&] {
+                     std::string text = heidenhainCompensation(table, measured);
+                     if (!text.empty())
+                       requireSameEverywhere(readHeidenhainTable(text, "heidenhain_com.csv"), {table},
+                                             text_rounding_mm);
+                     return text;
+                   });
     const auto axis = static_cast<std::size_t>(table.axis[0] - 'X');
     if (!request.fanuc_step || !knownErrors(table, measured)[axis]) continue;
     const FanucPoints points = FanucPoints::over(*machine.findAxis(table.axis), request.positions, fanuc_number);
@@ -389,11 +388,9 @@ void makeControlTables(const MachineDescription& machine, const PreparedModel& p
         {fmt::format("fanuc_{}_pitch.nc", table.axis),
          fmt::format("Fanuc pitch error data of {}", table.axis),
          fmt::format("Program (G10 L50) with steps in detection units of {:g} µm from point to point, {}: a positive "
-                     "value moves the "
-                     "axis to {}, as stated. Points, distance and magnification are those of its head (parameters 3620 "
-                     "to 3624). It "
-                     "stands in place of the data that the control has. Beyond what was measured it is "
-                     "extrapolated; the ISO 230-1 tables say where.",
+                     "value moves the axis to {}, as stated. Points, distance and magnification are those of its head "
+                     "(parameters 3620 to 3624). It stands in place of the data that the control has. Beyond what was "
+                     "measured it is extrapolated; the ISO 230-1 tables say where.",
                      request.fanuc_unit_um, relative, *request.fanuc_step == FanucStep::Positive ? "+" : "−"),
          {}},
         [&] {
@@ -408,12 +405,9 @@ void makeControlTables(const MachineDescription& machine, const PreparedModel& p
   if (!request.fanuc_step) {
     plan.not_written =
         "No pitch error data are written for Fanuc until it is stated which way a positive value moves the axis: "
-        "public "
-        "documents give their format, not that. Set one value of 10 detection units on the control, move over its "
-        "section "
-        "in the positive direction with an indicator on the axis, and see whether it goes further than before "
-        "(positive) "
-        "or less far (negative).";
+        "public documents give their format, not that. Set one value of 10 detection units on the control, move over "
+        "its section in the positive direction with an indicator on the axis, and see whether it goes further than "
+        "before (positive) or less far (negative).";
   }
 }
 
@@ -687,7 +681,7 @@ std::string CompensationPlan::summary() const {
   }
   if (!limitation.empty()) text += fmt::format("  note: {}\n", limitation);
   for (const std::string& w : warnings) text += fmt::format("  note: {}\n", w);
-  for (const CompensationFile& f : files) text += fmt::format("  {}: {} {}\n", f.name, f.title, f.convention);
+  for (const CompensationFile& f : files) text += fmt::format("  {}: {}. {}\n", f.name, f.title, f.convention);
   if (!not_written.empty()) text += "  " + not_written + "\n";
   return text;
 }

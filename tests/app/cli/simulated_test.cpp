@@ -255,11 +255,15 @@ TEST_F(Simulated, CompensateWritesTheTablesOfACompletedModel) {
   ASSERT_FALSE(j["points"].empty());
   for (const auto& file : j["files"]) {
     EXPECT_FALSE(textOf(in("control/" + file["name"].get<std::string>())).empty()) << file.dump();
-    EXPECT_FALSE(file["convention"].get<std::string>().empty());
+    const std::string said = file["name"].get<std::string>() + ": " + file["title"].get<std::string>() + ". " +
+                             file["convention"].get<std::string>();
+    EXPECT_NE(outcome.output.find(said), std::string::npos) << said;
   }
   expectBadInput({"compensate", campaign(), "--model", "completed"}, {"at least one effect"});
   expectBadInput({"compensate", campaign(), "--reference", "1,2"}, {"--reference 1,2"});
   expectBadInput({"compensate", campaign(), "--state", "M99"}, {"M99"});
+  expectBadInput({"compensate", campaign(), "--fanuc-unit", "0.1"}, {"--fanuc"});
+  expectBadInput({"compensate", campaign(), "--fanuc", "up"}, {"positive", "negative"});
 }
 
 TEST_F(Simulated, AnEffectIsAcceptedOnceAndNotRejectedToo) {
