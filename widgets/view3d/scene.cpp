@@ -238,7 +238,10 @@ struct Scene::Impl {
 
   [[nodiscard]] QImage read(const QSize& pixels) const {
     vtkNew<vtkUnsignedCharArray> data;
-    window->GetRGBACharPixelData(0, 0, pixels.width() - 1, pixels.height() - 1, 0, data);
+    // What was rendered lies averaged over its samples in the front buffer; the back buffer would be averaged once
+    // more.
+    constexpr int front = 1;
+    window->GetRGBACharPixelData(0, 0, pixels.width() - 1, pixels.height() - 1, front, data);
     const QImage raw(data->GetPointer(0), pixels.width(), pixels.height(), 4 * pixels.width(), QImage::Format_RGBX8888);
     return raw.mirrored(false, true).convertToFormat(QImage::Format_RGB32);
   }
