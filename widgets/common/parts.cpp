@@ -629,8 +629,9 @@ void Segments::setCurrent(int index) {
   buttons_[static_cast<std::size_t>(index)]->setChecked(true);
 }
 
-QSplitter* makeSplitter(QWidget* first, QWidget* second, int first_part, int second_part, Qt::Orientation orientation) {
-  auto* splitter = new QSplitter(orientation);
+QSplitter* makeSplitter(QWidget* parent, QWidget* first, QWidget* second, int first_part, int second_part,
+                        Qt::Orientation orientation) {
+  auto* splitter = new QSplitter(orientation, parent);
   splitter->setChildrenCollapsible(false);
   splitter->setHandleWidth(12);
   splitter->addWidget(first);
@@ -647,6 +648,7 @@ namespace {
 /// to find that out, hidden ones too, several times for each change.
 class Tabs : public QTabWidget {
  public:
+  using QTabWidget::QTabWidget;
   [[nodiscard]] bool hasHeightForWidth() const override { return false; }
   /// As high as the page that is shown needs to be; the others wait until it is their turn.
   [[nodiscard]] QSize minimumSizeHint() const override {
@@ -690,8 +692,8 @@ class Tabs : public QTabWidget {
 
 }  // namespace
 
-QTabWidget* makeTabs() {
-  auto* tabs = new Tabs;
+QTabWidget* makeTabs(QWidget* parent) {
+  auto* tabs = new Tabs(parent);
   QObject::connect(tabs, &QTabWidget::currentChanged, tabs, [tabs] { tabs->updateGeometry(); });
   tabs->setDocumentMode(true);
   tabs->tabBar()->setDrawBase(false);

@@ -169,10 +169,11 @@ void wrapCells(QTableView* table);
 /// The same with sentences in its last column, which has the room that the others leave and as many lines as it needs.
 [[nodiscard]] QTableView* makeSentenceTable(QAbstractItemModel* model, const QString& accessible_name,
                                             const QString& empty_text);
-/// Two areas with a movable border, their sizes in the given proportion.
-[[nodiscard]] QSplitter* makeSplitter(QWidget* first, QWidget* second, int first_part, int second_part,
+/// Two areas with a movable border, their sizes in the given proportion. Both give all that is in them its style at
+/// once and again for every other parent: `parent` is where they stay, nullptr if that takes them itself.
+[[nodiscard]] QSplitter* makeSplitter(QWidget* parent, QWidget* first, QWidget* second, int first_part, int second_part,
                                       Qt::Orientation orientation = Qt::Horizontal);
-[[nodiscard]] QTabWidget* makeTabs();
+[[nodiscard]] QTabWidget* makeTabs(QWidget* parent);
 /// A row of buttons of which one is down, like tabs: for two to six choices.
 class Segments : public QWidget {
   Q_OBJECT

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "widgets/common/table_titles.h"
 
+#include <QHash>
 #include <QPainter>
 #include <algorithm>
+#include <utility>
 
 #include "widgets/theme/fonts.h"
 #include "widgets/theme/icons.h"
@@ -17,6 +19,39 @@ constexpr int before_mark = 4;
 
 QFont titleFont() {
   return textFont(sizes::font_secondary, QFont::DemiBold);
+}
+
+/// A title as it is laid out, of one line or, if narrow, of the two that are least wide.
+struct LaidTitle {
+  QString text;
+  QSize size;
+};
+
+/// Tables ask for their titles with every change of their rows and sizes: each is measured once for a font.
+const LaidTitle& laid(QString text, bool narrow) {
+  static QFont measured;
+  static QHash<std::pair<QString, bool>, LaidTitle> titles;
+  const QFont font = titleFont();
+  if (font != measured) {
+    titles.clear();
+    measured = font;
+  }
+  const std::pair key(text, narrow);
+  if (const auto known = titles.constFind(key); known != titles.constEnd()) return *known;
+  const QFontMetrics metrics(font);
+  if (narrow && !text.contains(QLatin1Char('\n'))) {
+    qsizetype best = -1;
+    int least = metrics.horizontalAdvance(text);
+    for (qsizetype at = text.indexOf(QLatin1Char(' ')); at >= 0; at = text.indexOf(QLatin1Char(' '), at + 1)) {
+      if (at >= 1 && text[at - 1] == QLatin1Char('/')) continue;  // "/ µm" stays together
+      const int width = std::max(metrics.horizontalAdvance(text.left(at)), metrics.horizontalAdvance(text.mid(at + 1)));
+      if (width >= least) continue;
+      least = width;
+      best = at;
+    }
+    if (best >= 0) text[best] = QLatin1Char('\n');
+  }
+  return *titles.insert(key, {text, metrics.size(0, text)});
 }
 
 }  // namespace
@@ -44,21 +79,8 @@ void TableTitles::fitLast(int least_px) {
   if (sectionSize(count() - 1) < least_px) resizeSection(count() - 1, least_px);
 }
 
-QString TableTitles::title(int section, bool narrow) const {
-  QString text = model() == nullptr ? QString() : model()->headerData(section, Qt::Horizontal).toString();
-  if (!narrow || text.contains(QLatin1Char('\n'))) return text;
-  const QFontMetrics metrics(titleFont());
-  qsizetype best = -1;
-  int least = metrics.horizontalAdvance(text);
-  for (qsizetype at = text.indexOf(QLatin1Char(' ')); at >= 0; at = text.indexOf(QLatin1Char(' '), at + 1)) {
-    if (at >= 1 && text[at - 1] == QLatin1Char('/')) continue;  // "/ µm" stays together
-    const int width = std::max(metrics.horizontalAdvance(text.left(at)), metrics.horizontalAdvance(text.mid(at + 1)));
-    if (width >= least) continue;
-    least = width;
-    best = at;
-  }
-  if (best >= 0) text[best] = QLatin1Char('\n');
-  return text;
+QString TableTitles::title(int section) const {
+  return model() == nullptr ? QString() : model()->headerData(section, Qt::Horizontal).toString();
 }
 
 bool TableTitles::ordered(int section) const {
@@ -66,13 +88,11 @@ bool TableTitles::ordered(int section) const {
 }
 
 int TableTitles::titleWidth(int section, bool narrow) const {
-  return QFontMetrics(titleFont()).size(0, title(section, narrow)).width() + 2 * padding +
-         (ordered(section) ? before_mark + mark : 0);
+  return laid(title(section), narrow).size.width() + 2 * padding + (ordered(section) ? before_mark + mark : 0);
 }
 
 QSize TableTitles::sectionSizeFromContents(int section) const {
-  const int height = QFontMetrics(titleFont()).size(0, title(section, narrow_)).height();
-  return {titleWidth(section, narrow_), height + 2 * padding + 1};
+  return {titleWidth(section, narrow_), laid(title(section), narrow_).size.height() + 2 * padding + 1};
 }
 
 void TableTitles::paintSection(QPainter* painter, const QRect& place, int section) const {
@@ -91,7 +111,7 @@ void TableTitles::paintSection(QPainter* painter, const QRect& place, int sectio
   painter->setFont(titleFont());
   painter->setPen(theme().text_secondary);
   const QFontMetrics metrics(titleFont());
-  QStringList lines = title(section, narrow_).split(QLatin1Char('\n'));
+  QStringList lines = laid(title(section), narrow_).text.split(QLatin1Char('\n'));
   for (QString& line : lines) line = metrics.elidedText(line, Qt::ElideRight, room.width());
   painter->drawText(room, static_cast<int>(alignment), lines.join(QLatin1Char('\n')));
   painter->restore();

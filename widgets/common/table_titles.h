@@ -25,7 +25,7 @@ class TableTitles : public QHeaderView {
   void paintSection(QPainter* painter, const QRect& place, int section) const override;
 
  private:
-  [[nodiscard]] QString title(int section, bool narrow) const;
+  [[nodiscard]] QString title(int section) const;
   [[nodiscard]] bool ordered(int section) const;
 
   bool narrow_ = false;

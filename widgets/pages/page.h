@@ -114,7 +114,8 @@ class Page : public QWidget {
 /// Which page a step shows for a campaign.
 class PageRegistry {
  public:
-  using Factory = std::function<Page*(PageContext)>;
+  /// Makes a page inside `place`: what is put into a window only when it is whole gets all its styles again.
+  using Factory = std::function<Page*(PageContext, QWidget* place)>;
   using Applies = std::function<bool(const SessionModel&)>;
   /// The first entry of a step that applies is shown.
   void add(StepId step, Applies applies, Factory factory, const char* key);

@@ -33,58 +33,74 @@ void registerPages(PageRegistry& registry) {
   };
   registry.add(
       StepId::Model, [](const SessionModel& s) { return s.modelOverTime(); },
-      [](PageContext c) { return new ThermalModelPage(std::move(c)); }, "model-over-time");
+      [](PageContext c, QWidget* place) { return new ThermalModelPage(std::move(c), place); }, "model-over-time");
   registry.add(
-      StepId::Machine, always, [](PageContext c) { return new MachinePage(std::move(c)); }, "machine");
+      StepId::Machine, always, [](PageContext c, QWidget* place) { return new MachinePage(std::move(c), place); },
+      "machine");
   registry.add(
-      StepId::WarmUp, always, [](PageContext c) { return new WarmUpPage(std::move(c)); }, "warm-up");
+      StepId::WarmUp, always, [](PageContext c, QWidget* place) { return new WarmUpPage(std::move(c), place); },
+      "warm-up");
   registry.add(
-      StepId::Capture, microscope, [](PageContext c) { return new FiducialCapturePage(std::move(c)); },
-      "capture-fiducials");
+      StepId::Capture, microscope,
+      [](PageContext c, QWidget* place) { return new FiducialCapturePage(std::move(c), place); }, "capture-fiducials");
   registry.add(
-      StepId::Calibrate, microscope, [](PageContext c) { return new FiducialCalibratePage(std::move(c)); },
+      StepId::Calibrate, microscope,
+      [](PageContext c, QWidget* place) { return new FiducialCalibratePage(std::move(c), place); },
       "calibrate-fiducials");
   const auto touches = [](const SessionModel& s) { return s.has(Instrument::TouchProbe); };
   registry.add(
-      StepId::Capture, touches, [](PageContext c) { return new TouchCapturePage(std::move(c)); }, "capture-touches");
+      StepId::Capture, touches, [](PageContext c, QWidget* place) { return new TouchCapturePage(std::move(c), place); },
+      "capture-touches");
   registry.add(
-      StepId::Calibrate, touches, [](PageContext c) { return new TouchEvaluationPage(std::move(c)); },
-      "evaluate-touches");
+      StepId::Calibrate, touches,
+      [](PageContext c, QWidget* place) { return new TouchEvaluationPage(std::move(c), place); }, "evaluate-touches");
   registry.add(
-      StepId::Model, touches, [](PageContext c) { return new CycleModelPage(std::move(c)); }, "model-cycles");
+      StepId::Model, touches, [](PageContext c, QWidget* place) { return new CycleModelPage(std::move(c), place); },
+      "model-cycles");
   const auto scans = [](const SessionModel& s) { return s.has(Instrument::Profiler); };
   registry.add(
-      StepId::Capture, scans, [](PageContext c) { return new ScanCapturePage(std::move(c)); }, "capture-scans");
+      StepId::Capture, scans, [](PageContext c, QWidget* place) { return new ScanCapturePage(std::move(c), place); },
+      "capture-scans");
   registry.add(
-      StepId::Calibrate, scans, [](PageContext c) { return new ProfilerCalibrationPage(std::move(c)); },
+      StepId::Calibrate, scans,
+      [](PageContext c, QWidget* place) { return new ProfilerCalibrationPage(std::move(c), place); },
       "calibrate-profiler");
   registry.add(
-      StepId::Model, scans, [](PageContext c) { return new AxisErrorsPage(std::move(c)); }, "model-axis-errors");
+      StepId::Model, scans, [](PageContext c, QWidget* place) { return new AxisErrorsPage(std::move(c), place); },
+      "model-axis-errors");
   // A new measurement: nothing is there yet, and it is about to arrive.
   const auto nothing = [](const SessionModel& s) {
     return s.campaign() != nullptr && !s.campaign()->observations && !s.campaign()->log;
   };
   registry.add(
-      StepId::Capture, nothing, [](PageContext c) { return new NewCapturePage(std::move(c)); }, "capture-new");
+      StepId::Capture, nothing, [](PageContext c, QWidget* place) { return new NewCapturePage(std::move(c), place); },
+      "capture-new");
   registry.add(
-      StepId::Model, points, [](PageContext c) { return new NineParameterPage(std::move(c)); }, "model-nine-parameter");
+      StepId::Model, points, [](PageContext c, QWidget* place) { return new NineParameterPage(std::move(c), place); },
+      "model-nine-parameter");
   registry.add(
-      StepId::Discrepancy, always, [](PageContext c) { return new DiscrepancyPage(std::move(c)); }, "discrepancy");
+      StepId::Discrepancy, always,
+      [](PageContext c, QWidget* place) { return new DiscrepancyPage(std::move(c), place); }, "discrepancy");
   registry.add(
       StepId::Compensate, [](const SessionModel& s) { return s.isLogOnly(); },
-      [](PageContext c) { return new LogCompensatePage(std::move(c)); }, "compensate-log");
+      [](PageContext c, QWidget* place) { return new LogCompensatePage(std::move(c), place); }, "compensate-log");
   registry.add(
-      StepId::Compensate, always, [](PageContext c) { return new CompensatePage(std::move(c)); }, "compensate");
+      StepId::Compensate, always, [](PageContext c, QWidget* place) { return new CompensatePage(std::move(c), place); },
+      "compensate");
   const auto more_than_a_log = [](const SessionModel& s) { return !s.isLogOnly(); };
   registry.add(
-      StepId::Verify, more_than_a_log, [](PageContext c) { return new VerifyPage(std::move(c)); }, "verify");
+      StepId::Verify, more_than_a_log,
+      [](PageContext c, QWidget* place) { return new VerifyPage(std::move(c), place); }, "verify");
   registry.add(
-      StepId::Review, more_than_a_log, [](PageContext c) { return new ReviewPage(std::move(c)); }, "review");
+      StepId::Review, more_than_a_log,
+      [](PageContext c, QWidget* place) { return new ReviewPage(std::move(c), place); }, "review");
   registry.add(
-      StepId::Report, always, [](PageContext c) { return new ReportPage(std::move(c)); }, "report");
+      StepId::Report, always, [](PageContext c, QWidget* place) { return new ReportPage(std::move(c), place); },
+      "report");
   for (const StepId step : all_steps) {
     registry.add(
-        step, always, [step](PageContext c) { return new MessagePage(std::move(c), step); }, "message");
+        step, always, [step](PageContext c, QWidget* place) { return new MessagePage(std::move(c), step, place); },
+        "message");
   }
 }
 

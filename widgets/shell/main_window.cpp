@@ -251,7 +251,7 @@ void MainWindow::showStep() {
   Page*& page = pages_[entry];
   if (page == nullptr) {
     PageContext context{session_, jobs_, undo_, workflow_, [this](const QString& text) { job_bar_->setHint(text); }};
-    page = entry->factory(std::move(context));
+    page = entry->factory(std::move(context), page_stack_->makePlace());
   }
   page_ = page;
   back_->setEnabled(workflow_.canGoBack());

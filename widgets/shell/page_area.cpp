@@ -8,11 +8,14 @@
 
 namespace spindrift::gui {
 
-PageArea::PageArea(QWidget* page) {
+PageArea::PageArea(QWidget* parent) : QScrollArea(parent) {
   setFrameShape(QFrame::NoFrame);
   setFocusPolicy(Qt::NoFocus);
-  setWidget(page);
   viewport()->setAutoFillBackground(false);
+}
+
+void PageArea::take(QWidget* page) {
+  setWidget(page);
   page->setAutoFillBackground(false);
 }
 
@@ -55,8 +58,18 @@ bool PageStack::holds(const QWidget* page) const {
   return false;
 }
 
+QWidget* PageStack::makePlace() {
+  auto* area = new PageArea(this);
+  addWidget(area);
+  return area->viewport();
+}
+
 void PageStack::add(QWidget* page) {
-  addWidget(new PageArea(page));
+  for (int i = 0; i < count(); ++i) {
+    auto* area = static_cast<PageArea*>(widget(i));
+    if (area->viewport() == page->parentWidget()) area->take(page);
+  }
+  Q_ASSERT(holds(page));
 }
 
 void PageStack::show(QWidget* page) {

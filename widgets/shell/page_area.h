@@ -14,7 +14,9 @@ namespace spindrift::gui {
 class PageArea : public QScrollArea {
   Q_OBJECT
  public:
-  explicit PageArea(QWidget* page);
+  explicit PageArea(QWidget* parent);
+  /// Takes a page that was made inside the viewport.
+  void take(QWidget* page);
   [[nodiscard]] QSize sizeHint() const override { return minimumSizeHint(); }
   [[nodiscard]] QSize minimumSizeHint() const override { return {640, 480}; }
 
@@ -29,8 +31,10 @@ class PageArea : public QScrollArea {
 class PageStack : public QStackedWidget {
   Q_OBJECT
  public:
+  /// An empty place, in which a page is to be made.
+  [[nodiscard]] QWidget* makePlace();
   [[nodiscard]] bool holds(const QWidget* page) const;
-  /// Adds a page that is not there yet.
+  /// Adds a page that was made in a place of this stack.
   void add(QWidget* page);
   void show(QWidget* page);
   [[nodiscard]] bool hasHeightForWidth() const override { return false; }

@@ -143,7 +143,7 @@ ExerciseDialog::ExerciseDialog(SessionModel& session, JobRunner& jobs, QWidget* 
 
   results_ = new RowsModel({tr("Hidden"), tr("Named"), tr("Driver"), tr("Size"), tr("Score"), QString()}, this);
   history_ = new RowsModel({tr("When"), tr("Level"), tr("Number"), tr("Score"), tr("Hints"), QString()}, this);
-  auto* tabs = makeTabs();
+  auto* tabs = makeTabs(this);
   results_table_ = makeTable(results_, tr("What was hidden"), tr("What was hidden appears here after your answer."));
   tabs->addTab(results_table_, tr("Result"));
   tabs->addTab(makeTable(history_, tr("Earlier exercises"), tr("Exercises that were marked appear here.")),

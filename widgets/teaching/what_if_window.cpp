@@ -168,7 +168,7 @@ WhatIfWindow::WhatIfWindow(const MachineDescription& machine, WindowDraft draft,
   part_view_ = new TestPartView;
   auto* part_card = new Card(tr("Test part (of the kind of ISO 10791-7)"));
   part_card->body()->addWidget(part_view_, 1);
-  auto* pictures = makeSplitter(machine_card, part_card, 1, 1);
+  auto* pictures = makeSplitter(nullptr, machine_card, part_card, 1, 1);
 
   part_rows_ = new RowsModel(
       {tr("Feature"), tr("Characteristic"), tr("Value"), tr("Unit"), tr("Nominal / mm"), QString()}, this);
@@ -178,7 +178,7 @@ WhatIfWindow::WhatIfWindow(const MachineDescription& machine, WindowDraft draft,
   artefact_rows_ = new RowsModel(
       {tr("Feature"), tr("X / mm"), tr("Y / mm"), tr("Z / mm"), tr("EX / µm"), tr("EY / µm"), tr("EZ / µm"), QString()},
       this);
-  tabs_ = makeTabs();
+  tabs_ = makeTabs(nullptr);
   tabs_->addTab(makeTable(part_rows_, tr("Characteristics of the test part")), tr("Test part"));
   tabs_->addTab(makeTable(point_rows_, tr("Deviations at the probing points")), tr("Probing points"));
   auto* artefacts = new QWidget;
@@ -194,9 +194,9 @@ WhatIfWindow::WhatIfWindow(const MachineDescription& machine, WindowDraft draft,
   artefact_column->addLayout(line);
   artefact_column->addWidget(makeTable(artefact_rows_, tr("Deviations of the features of the artefact")), 1);
   tabs_->addTab(artefacts, tr("Artefacts"));
-  right_column->addWidget(makeSplitter(pictures, tabs_, 5, 4, Qt::Vertical), 1);
+  right_column->addWidget(makeSplitter(right, pictures, tabs_, 5, 4, Qt::Vertical), 1);
 
-  column->addWidget(makeSplitter(makeControls(), right, 3, 7), 1);
+  column->addWidget(makeSplitter(this, makeControls(), right, 3, 7), 1);
   connect(tabs_, &QTabWidget::currentChanged, this, [this] { refreshTable(what_if_.answer()); });
   connect(artefact_, &QComboBox::activated, this, [this] { refreshTable(what_if_.answer()); });
   connect(&UnitsNotifier::instance(), &UnitsNotifier::changed, this, [this] {

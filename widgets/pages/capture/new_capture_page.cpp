@@ -17,7 +17,7 @@ NewCapturePage::NewCapturePage(PageContext page_context, QWidget* parent)
   setInstruction(tr("Say what measures, make a plan, and let every capture be checked as it arrives."));
   instrument_ = new Segments({tr("Microscope"), tr("Touch probe"), tr("Laser profiler")}, tr("Instrument"));
   addAction(instrument_);
-  tabs_ = makeTabs();
+  tabs_ = makeTabs(this);
   arriving_ = new ArrivingPanel(context(), Instrument::Microscope);
   camera_ = new CameraPanel(context());
   tabs_->addTab(arriving_, tr("Arriving"));

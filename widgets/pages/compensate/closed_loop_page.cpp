@@ -141,7 +141,7 @@ ClosedLoopPage::ClosedLoopPage(SessionModel& session, QWidget* parent)
   side_column->setSpacing(12);
   side_column->addWidget(decision_);
   side_column->addWidget(right, 1);
-  outer->addWidget(makeSplitter(left, side, 6, 5), 1);
+  outer->addWidget(makeSplitter(this, left, side, 6, 5), 1);
 
   connect(back, &QPushButton::clicked, this, &ClosedLoopPage::closed);
   connect(open_, &QPushButton::clicked, this, [this] {

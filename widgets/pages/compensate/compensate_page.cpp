@@ -120,7 +120,7 @@ CompensatePage::CompensatePage(PageContext page_context, QWidget* parent)
   column->addWidget(head);
 
   auto* left = new Card;
-  tabs_ = makeTabs();
+  tabs_ = makeTabs(left);
   points_ = new RowsModel({tr("Point"), tr("X / µm"), tr("Y / µm"), tr("Z / µm"), tr("Remains")}, this);
   point_table_ = makeTable(points_, tr("Correction at each point"), tr("Corrections appear here."));
   stretchColumn(point_table_, 0);
@@ -157,7 +157,7 @@ CompensatePage::CompensatePage(PageContext page_context, QWidget* parent)
   view_->setMachineVisible(false);
   view_->setEmptyText(tr("Arrows at the points will appear here"), tr("Calculate the compensation."));
   right->body()->addWidget(view_, 1);
-  column->addWidget(makeSplitter(left, right, 6, 6), 1);
+  column->addWidget(makeSplitter(work, left, right, 6, 6), 1);
   stack_->addWidget(work);
   content()->addWidget(stack_, 1);
   showHints(view_);

@@ -62,7 +62,7 @@ LogCompensatePage::LogCompensatePage(PageContext page_context, QWidget* parent)
   plot_->setEmptyText(tr("Measured deviation, correction and residual will appear here"),
                       tr("Identify a model (Model), then press Run the compensator."));
   card->body()->addWidget(plot_, 1);
-  auto* tabs = makeTabs();
+  auto* tabs = makeTabs(this);
   tabs->setObjectName(QStringLiteral("compensatorTabs"));
   tabs->addTab(card, tr("Over the log"));
   live_ = new LiveCompensationPanel(session());

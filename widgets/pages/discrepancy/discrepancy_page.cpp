@@ -173,7 +173,7 @@ DiscrepancyPage::DiscrepancyPage(PageContext page_context, QWidget* parent)
   banner_->body()->addLayout(line);
   column->addWidget(banner_);
 
-  tabs_ = makeTabs();
+  tabs_ = makeTabs(told);
   where_ = new WherePanel;
   gap_ = new GapPanel;
   nothing_yet_ = new EmptyState("discrepancy", {}, {});

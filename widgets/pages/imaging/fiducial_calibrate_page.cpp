@@ -61,7 +61,7 @@ FiducialCalibratePage::FiducialCalibratePage(PageContext page_context, QWidget* 
   tiles->body()->addLayout(line);
   content()->addWidget(tiles);
 
-  tabs_ = makeTabs();
+  tabs_ = makeTabs(this);
   auto* left = new Card(tr("Deviations"));
   displacements_ = new RowsModel({tr("Fiducial"), tr("State"), tr("EX / µm"), tr("EY / µm"), tr("EZ / µm")}, this);
   left->body()->addWidget(
@@ -77,7 +77,7 @@ FiducialCalibratePage::FiducialCalibratePage(PageContext page_context, QWidget* 
   contrast_->setEmptyText(tr("Contrast curves will appear here"),
                           tr("Evaluate the captures: the peak of each curve is the height of its fiducial."));
   right->body()->addWidget(contrast_, 1);
-  tabs_->addTab(makeSplitter(left, right, 6, 6), tr("Deviations"));
+  tabs_->addTab(makeSplitter(nullptr, left, right, 6, 6), tr("Deviations"));
   const auto add = [this](QWidget* content, const QString& title) {
     auto* card = new Card;
     card->body()->addWidget(content, 1);

@@ -94,7 +94,8 @@ FiducialCapturePage::FiducialCapturePage(PageContext page_context, QWidget* pare
   buttons->addWidget(overlay_);
   buttons->addWidget(fit);
   picture->body()->addLayout(buttons);
-  content()->addWidget(captureTabs(makeSplitter(list, picture, 5, 7), context(), Instrument::Microscope), 1);
+  content()->addWidget(captureTabs(this, makeSplitter(nullptr, list, picture, 5, 7), context(), Instrument::Microscope),
+                       1);
   showHints(image_);
 
   connect(check_, &QPushButton::clicked, this, [this] { runTask("check"); });

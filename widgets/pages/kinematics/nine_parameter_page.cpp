@@ -87,7 +87,7 @@ NineParameterPage::NineParameterPage(PageContext page_context, QWidget* parent)
   tiles->addWidget(condition_, 1);
   left->body()->addLayout(tiles);
 
-  tabs_ = makeTabs();
+  tabs_ = makeTabs(left);
   parameters_ = new RowsModel({tr("Parameter"), tr("Value"), tr("Meaning")}, this);
   tabs_->addTab(makeSentenceTable(parameters_, tr("Parameters"),
                                   tr("Nine parameters with their uncertainty appear after the fit.")),
@@ -132,7 +132,7 @@ NineParameterPage::NineParameterPage(PageContext page_context, QWidget* parent)
                       tr("Fit the model: it is drawn over the table with the measured points on top."));
   view_->setMachineVisible(false);
   right->body()->addWidget(view_, 1);
-  content()->addWidget(makeSplitter(left, right, 13, 10), 1);
+  content()->addWidget(makeSplitter(this, left, right, 13, 10), 1);
   showHints(view_);
 
   connect(fit_button_, &QPushButton::clicked, this, [this] { runTask("fit"); });

@@ -161,9 +161,9 @@ MachinePage::MachinePage(PageContext page_context, QWidget* parent)
   view_->setMinimumWidth(190);  // beside the help
   view_->setEmptyText(tr("The machine will appear here"), tr("Give its chain and the travel of its axes."));
   picture->body()->addWidget(view_, 1);
-  auto* tabs = makeTabs();
+  auto* tabs = makeTabs(this);
   tabs->setObjectName(QStringLiteral("machineTabs"));
-  tabs->addTab(makeSplitter(card, picture, 8, 5), tr("Axes and points"));
+  tabs->addTab(makeSplitter(nullptr, card, picture, 8, 5), tr("Axes and points"));
   artefacts_ = new ArtefactEditor(context());
   tabs->addTab(artefacts_, tr("Artefacts and styli"));
   tabs->addTab(makeSensorTab(), tr("Temperature sensors"));

@@ -187,17 +187,17 @@ PlantPage::PlantPage(SessionModel& session, JobRunner& jobs, QWidget* parent)
   connect(event_time_, &QLineEdit::returnPressed, enter_event_, &QPushButton::click);
   connect(enter_event_, &QPushButton::clicked, this, &PlantPage::enterEvent);
 
-  tabs_ = makeTabs();
+  tabs_ = makeTabs(nullptr);
   tabs_->addTab(column({parameter_, plot_, said_, row({event_kind_, event_time_, event_note_, enter_event_}, 2)}),
                 tr("Trend"));
-  tabs_->addTab(makeSplitter(column({campaign_table_}), column({comparison_table}), 3, 2, Qt::Vertical),
+  tabs_->addTab(makeSplitter(nullptr, column({campaign_table_}), column({comparison_table}), 3, 2, Qt::Vertical),
                 tr("Campaigns"));
   batches_ = new BatchesPanel(jobs_, *callout_, [this] { return addressText(); });
   tabs_->addTab(batches_, tr("Batches"));
   auto* help = new HelpText(tr("Help on the plant"));
   help->showHelp(QStringLiteral("plant"));
   tabs_->addTab(column({help}), tr("Help"));
-  outer->addWidget(makeSplitter(list, tabs_, 9, 11), 1);
+  outer->addWidget(makeSplitter(this, list, tabs_, 9, 11), 1);
 }
 
 QString PlantPage::said() const {

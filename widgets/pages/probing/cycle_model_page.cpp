@@ -73,7 +73,7 @@ CycleModelPage::CycleModelPage(PageContext page_context, QWidget* parent)
   condition_->setWordWrap(true);
   choice->addWidget(condition_, 1);
   left->body()->addLayout(choice);
-  auto* tabs = makeTabs();
+  auto* tabs = makeTabs(left);
   parameters_ = new RowsModel({tr("Parameter"), tr("Value"), tr("Value / u"), tr("Meaning")}, this);
   tabs->addTab(makeSentenceTable(parameters_, tr("Parameters of the cycle"),
                                  tr("Every parameter with its uncertainty appears after the fit.")),
@@ -89,7 +89,7 @@ CycleModelPage::CycleModelPage(PageContext page_context, QWidget* parent)
   right_ = new QStackedWidget;
   right_->addWidget(makeVolumePart());
   right_->addWidget(makeBarPart());
-  content()->addWidget(makeSplitter(left, right_, 6, 6), 1);
+  content()->addWidget(makeSplitter(this, left, right_, 6, 6), 1);
   showHints(trends_);
   showHints(view_);
   showHints(line_);

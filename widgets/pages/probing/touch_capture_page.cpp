@@ -104,7 +104,8 @@ TouchCapturePage::TouchCapturePage(PageContext page_context, QWidget* parent)
   right->body()->addLayout(shown);
   program_verdict_ = new Callout;
   right->body()->addWidget(program_verdict_);
-  content()->addWidget(captureTabs(makeSplitter(list, right, 6, 6), context(), Instrument::TouchProbe), 1);
+  content()->addWidget(captureTabs(this, makeSplitter(nullptr, list, right, 6, 6), context(), Instrument::TouchProbe),
+                       1);
   showHints(view_);
   view_->setMachineVisible(false);
 

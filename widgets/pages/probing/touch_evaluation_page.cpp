@@ -58,7 +58,7 @@ TouchEvaluationPage::TouchEvaluationPage(PageContext page_context, QWidget* pare
   tiles->body()->addLayout(line);
   content()->addWidget(tiles);
 
-  tabs_ = makeTabs();
+  tabs_ = makeTabs(this);
   auto* left = new Card(tr("Features"));
   cycle_ = new QComboBox;
   cycle_->setAccessibleName(tr("Cycle whose features are listed"));
@@ -79,7 +79,7 @@ TouchEvaluationPage::TouchEvaluationPage(PageContext page_context, QWidget* pare
   plot_->setEmptyText(tr("Deviations will appear here"),
                       tr("Evaluate the touches: every feature is compared with the first cycle."));
   right->body()->addWidget(plot_, 1);
-  tabs_->addTab(makeSplitter(left, right, 9, 5), tr("Features"));
+  tabs_->addTab(makeSplitter(nullptr, left, right, 9, 5), tr("Features"));
   const auto add = [this](QWidget* content, const QString& title) {
     auto* card = new Card;
     card->body()->addWidget(content, 1);

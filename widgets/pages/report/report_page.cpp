@@ -92,7 +92,7 @@ ReportPage::ReportPage(PageContext page_context, QWidget* parent)
   stack_->addWidget(pages_);
   auto* right = new Card;
   right->body()->addWidget(stack_, 1);
-  line->addWidget(makeSplitter(left, right, 3, 9), 1);
+  line->addWidget(makeSplitter(work, left, right, 3, 9), 1);
   content()->addWidget(work, 1);
 
   // Ids of results start again in every session.

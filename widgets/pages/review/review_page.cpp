@@ -94,7 +94,7 @@ ReviewPage::ReviewPage(PageContext page_context, QWidget* parent)
   time->addWidget(slider_text_);
   left_column->addLayout(time);
 
-  auto* tabs = makeTabs();
+  auto* tabs = makeTabs(nullptr);
   rows_ = new RowsModel({tr("Point")}, this);
   table_ = makeTable(rows_, tr("Points"), tr("Points appear with the first evaluated state."));
   tabs->addTab(table_, tr("Points"));
@@ -111,7 +111,7 @@ ReviewPage::ReviewPage(PageContext page_context, QWidget* parent)
   section_->setEmptyText(tr("A section will appear here"), tr("Let a pane show a model, or points near the line."));
   section_column->addWidget(section_, 1);
   tabs->addTab(section_tab, tr("Section"));
-  content()->addWidget(makeSplitter(left, tabs, 13, 7), 1);
+  content()->addWidget(makeSplitter(this, left, tabs, 13, 7), 1);
   layOutPanes();
 
   connect(count_, &Segments::chosen, this, [this] {

@@ -98,7 +98,8 @@ AxisErrorsPage::AxisErrorsPage(PageContext page_context, QWidget* parent)
   series_->setEmptyText(tr("Errors of the axis will appear here"),
                         tr("Find the six errors: each is drawn over time with its uncertainty."));
   left->body()->addWidget(series_, 1);
-  tabs_ = makeTabs();
+  auto* right = new Card(tr("Over position and time"));
+  tabs_ = makeTabs(right);
   values_ = new RowsModel({tr("Scan"), tr("At the origin"), tr("At the artefact"), tr("Observed")}, this);
   tabs_->addTab(makeTable(values_, tr("Values"), tr("Every scan's error with its uncertainty appears here.")),
                 tr("Values"));
@@ -106,13 +107,12 @@ AxisErrorsPage::AxisErrorsPage(PageContext page_context, QWidget* parent)
   tabs_->addTab(makeTable(observability_, tr("What the scan model can observe"),
                           tr("Which errors this scan model can show appears after the fit.")),
                 tr("Observability"));
-  auto* right = new Card(tr("Over position and time"));
   surface_ = new SurfacePlot;
   surface_->setEmptyText(tr("The surface will appear here"),
                          tr("It needs at least two positions and two times with a determined error."));
   right->body()->addWidget(surface_, 6);
   right->body()->addWidget(tabs_, 4);
-  content()->addWidget(makeSplitter(left, right, 6, 6), 1);
+  content()->addWidget(makeSplitter(this, left, right, 6, 6), 1);
   showHints(series_);
   showHints(surface_);
   connect(fit_, &QPushButton::clicked, this, [this] { runTask("fit"); });

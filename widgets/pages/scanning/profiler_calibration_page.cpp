@@ -38,7 +38,7 @@ ProfilerCalibrationPage::ProfilerCalibrationPage(PageContext page_context, QWidg
   content()->addWidget(tiles);
 
   auto* left = new Card;
-  tabs_ = makeTabs();
+  tabs_ = makeTabs(left);
   auto* first = new QWidget;
   auto* column = new QVBoxLayout(first);
   column->setContentsMargins(0, 8, 0, 0);
@@ -62,7 +62,7 @@ ProfilerCalibrationPage::ProfilerCalibrationPage(PageContext page_context, QWidg
   residuals_->setEmptyText(tr("Residuals will appear here"),
                            tr("Evaluate the scans: every crossing of the rim is compared with the fitted circle."));
   right->body()->addWidget(residuals_, 1);
-  content()->addWidget(makeSplitter(left, right, 9, 5), 1);
+  content()->addWidget(makeSplitter(this, left, right, 9, 5), 1);
   showHints(residuals_);
   connect(evaluate_, &QPushButton::clicked, this, [this] { runTask("evaluate"); });
 }

@@ -91,7 +91,7 @@ ScanCapturePage::ScanCapturePage(PageContext page_context, QWidget* parent)
   line->addWidget(slider_text_);
   right->body()->addLayout(line);
   right->body()->addWidget(profile_, 3);
-  content()->addWidget(captureTabs(makeSplitter(list, right, 4, 7), context(), Instrument::Profiler), 1);
+  content()->addWidget(captureTabs(this, makeSplitter(nullptr, list, right, 4, 7), context(), Instrument::Profiler), 1);
   showHints(profile_);
   showHints(view_);
 

@@ -57,7 +57,7 @@ ThermalModelPage::ThermalModelPage(PageContext page_context, QWidget* parent)
   series_plot_->setEmptyText(tr("The log will appear here"),
                              tr("It needs a log with at least one displacement (a column ending in _um or _urad)."));
   top->body()->addWidget(series_plot_, 1);
-  content()->addWidget(makeSplitter(top, makeDetails(), 6, 8), 1);
+  content()->addWidget(makeSplitter(this, top, makeDetails(), 6, 8), 1);
   for (Plot* plot : {series_plot_, step_plot_, residual_plot_, updates_->plot(), iso_->plot(), iso_->plot(true)})
     showHints(plot);
 
@@ -115,7 +115,7 @@ QWidget* ThermalModelPage::makeChoices() {
 
 QWidget* ThermalModelPage::makeDetails() {
   auto* card = new Card;
-  tabs_ = makeTabs();
+  tabs_ = makeTabs(card);
   comparison_ = new RowsModel({tr("Model"), tr("Train rms"), tr("Test rms"), tr("Fit / %"), tr("p2p")}, this);
   tabs_->addTab(
       makeTable(comparison_, tr("Comparison"),
@@ -153,7 +153,7 @@ QWidget* ThermalModelPage::makeDetails() {
   residual_plot_->setEmptyText(tr("The autocorrelation of the residual will appear here"),
                                tr("Identify the model: its residual in training should be white noise."));
   cross_ = new RowsModel({tr("Input"), tr("Largest correlation"), tr("Limit, 99 %")}, this);
-  column->addWidget(makeSplitter(residual_plot_,
+  column->addWidget(makeSplitter(residuals, residual_plot_,
                                  makeTable(cross_, tr("Residual against inputs"),
                                            tr("How the residual depends on each input appears here.")),
                                  6, 5, Qt::Vertical),

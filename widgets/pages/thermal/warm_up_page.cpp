@@ -39,7 +39,7 @@ WarmUpPage::WarmUpPage(PageContext page_context, QWidget* parent)
   check_ = makeButton(tr("Check the drift"), nullptr, "primary");
   addAction(check_);
   auto* instrument = new Card;
-  tabs_ = makeTabs();
+  tabs_ = makeTabs(instrument);
   instrument->body()->addWidget(tabs_, 1);
   auto* drift_tab = new QWidget;
   auto* drift = new QVBoxLayout(drift_tab);
@@ -51,7 +51,7 @@ WarmUpPage::WarmUpPage(PageContext page_context, QWidget* parent)
   verdicts_ = new RowsModel(
       {tr("Axis"), tr("Drift now / (µm/h)"), tr("Time constant"), tr("Settles after"), tr("Verdict")}, this);
   auto* table = makeTable(verdicts_, tr("Drift of each axis"), tr("Drift and time constant of each axis appear here."));
-  drift->addWidget(makeSplitter(drift_, table, 11, 10), 1);
+  drift->addWidget(makeSplitter(drift_tab, drift_, table, 11, 10), 1);
   tabs_->addTab(drift_tab, tr("Drift"));
   jogs_ = new ResolutionCheckPanel(
       session(),
@@ -74,7 +74,7 @@ WarmUpPage::WarmUpPage(PageContext page_context, QWidget* parent)
                              tr("They come from log.csv of the campaign; this one has none."));
   temperature->body()->addWidget(temperature_, 1);
   content()->addWidget(new MachineStateLine(session()));
-  content()->addWidget(makeSplitter(instrument, temperature, 3, 2, Qt::Vertical), 1);
+  content()->addWidget(makeSplitter(this, instrument, temperature, 3, 2, Qt::Vertical), 1);
   ConnectionsService& live = ConnectionsService::of(session());
   connect(&live, &ConnectionsService::changed, this, [this, &live] {
     if (!isVisible() || !live.running()) return;

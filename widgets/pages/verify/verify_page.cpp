@@ -108,7 +108,7 @@ VerifyPage::VerifyPage(PageContext page_context, QWidget* parent)
   stack_->addWidget(plot_);
   stack_->addWidget(maps_);
   right->body()->addWidget(stack_, 1);
-  content()->addWidget(makeSplitter(left, right, 9, 5), 1);
+  content()->addWidget(makeSplitter(this, left, right, 9, 5), 1);
   showHints(plot_);
   connect(compare_, &QPushButton::clicked, this, [this] { runAll(); });
   connect(component_, &QComboBox::activated, this, [this](int) {

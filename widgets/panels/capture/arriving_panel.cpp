@@ -94,7 +94,7 @@ ArrivingPanel::ArrivingPanel(PageContext page_context, Instrument instrument, QW
   }
   left_->addWidget(touch_card_);
   right_->addWidget(plan_card);
-  column->addWidget(makeSplitter(left_, right_, 7, 5), 1);
+  column->addWidget(makeSplitter(this, left_, right_, 7, 5), 1);
   setInstrument(instrument);
 
   connect(choose_, &QPushButton::clicked, this, [this] {

@@ -74,7 +74,7 @@ CameraPanel::CameraPanel(PageContext page_context, QWidget* parent)
   plot_->setAxes(tr("Picture"), tr("Sharpness (ratio of contrasts)"));
   plot_->setEmptyText(tr("Sharpness over time will appear here"), tr("It is largest in focus."));
   right->body()->addWidget(plot_, 1);
-  column->addWidget(makeSplitter(left, right, 8, 4), 1);
+  column->addWidget(makeSplitter(this, left, right, 8, 4), 1);
   poll_.setInterval(40);
   connect(&poll_, &QTimer::timeout, this, &CameraPanel::showLatest);
   connect(open_, &QPushButton::clicked, this, [this] {

@@ -11,9 +11,9 @@
 
 namespace spindrift::gui {
 
-QTabWidget* captureTabs(QWidget* captured, const PageContext& context, Instrument instrument) {
+QTabWidget* captureTabs(QWidget* parent, QWidget* captured, const PageContext& context, Instrument instrument) {
   const auto tr = [](const char* text) { return QCoreApplication::translate("CaptureTabs", text); };
-  QTabWidget* tabs = makeTabs();
+  QTabWidget* tabs = makeTabs(parent);
   tabs->setObjectName(QStringLiteral("captureTabs"));
   tabs->addTab(captured, tr("Captures"));
   auto* arriving = new ArrivingPanel(context, instrument);

@@ -8,8 +8,9 @@ class QTabWidget;
 
 namespace spindrift::gui {
 
-/// Tabs "Captures" with `captured`, "Arriving" (watched folder, plan) and, for a microscope, "Camera".
-[[nodiscard]] QTabWidget* captureTabs(QWidget* captured, const PageContext& context, Instrument instrument);
+/// Tabs of `parent`: "Captures" with `captured`, "Arriving" (watched folder, plan) and, for a microscope, "Camera".
+[[nodiscard]] QTabWidget* captureTabs(QWidget* parent, QWidget* captured, const PageContext& context,
+                                      Instrument instrument);
 
 /// While captures arrive they are what one wants to see, else those that are there.
 void chooseCaptureTab(QWidget& page, SessionModel& session);

@@ -280,7 +280,7 @@ void EffectsPanel::makeBrowser() {
   scroll->setWidget(details_);
   scroll->setMinimumHeight(120);
   detail_->body()->addWidget(scroll, 3);
-  stack_->addWidget(makeSplitter(list_card, detail_, 10, 10));
+  stack_->addWidget(makeSplitter(stack_, list_card, detail_, 10, 10));
 
   connect(search_, &QLineEdit::textChanged, this, &EffectsPanel::filter);
   connect(tree_, &QTreeWidget::currentItemChanged, this, &EffectsPanel::showEffect);
@@ -653,7 +653,7 @@ void EffectsPanel::makeEditor() {
   buttons->addWidget(cancel);
   buttons->addWidget(accept_);
   picture_card->body()->addLayout(buttons);
-  stack_->addWidget(makeSplitter(editor_card_, picture_card, 6, 5));
+  stack_->addWidget(makeSplitter(stack_, editor_card_, picture_card, 6, 5));
 
   connect(editor_, &EffectEditor::edited, this, &EffectsPanel::editorChanged);
   connect(editor_gain_, &QComboBox::activated, this, &EffectsPanel::showEditorPicture);

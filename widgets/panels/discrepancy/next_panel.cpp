@@ -54,7 +54,7 @@ NextPanel::NextPanel(QWidget* parent) : QWidget(parent) {
   warnings_ = makeLabel({}, "secondaryText");
   warnings_->setWordWrap(true);
   right->body()->addWidget(warnings_);
-  column->addWidget(makeSplitter(left, right, 4, 8), 1);
+  column->addWidget(makeSplitter(this, left, right, 4, 8), 1);
   show(nullptr);
 }
 

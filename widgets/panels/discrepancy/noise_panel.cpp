@@ -86,7 +86,7 @@ NoisePanel::NoisePanel(QWidget* parent) : QWidget(parent) {
                                "of each state appears here."));
   shifts_ = new RowsModel({tr("State"), tr("Time")}, this);
   shift_table_ = makeTable(shifts_, tr("Common shift of every state"), tr("No state is shifted as a whole."));
-  stack_->addWidget(scrolled(makeSplitter(shift_plot_, shift_table_, 6, 5, Qt::Vertical)));
+  stack_->addWidget(scrolled(makeSplitter(nullptr, shift_plot_, shift_table_, 6, 5, Qt::Vertical)));
   readings_ = new RowsModel(
       {tr("Row"), tr("Point"), tr("State"), tr("What"), tr("Time"), tr("Deviation / σ"), tr("Status")}, this);
   reading_table_ = makeTable(readings_, tr("Outlying readings"), tr("No reading lies far from all others."));
@@ -101,9 +101,9 @@ NoisePanel::NoisePanel(QWidget* parent) : QWidget(parent) {
   reading_plot_->setLegendVisible(false);
   reading_plot_->setEmptyText(tr("The series of the reading"), tr("Choose a reading in the table."));
   look_column->addWidget(reading_plot_, 1);
-  stack_->addWidget(scrolled(makeSplitter(reading_table_, look, 5, 6, Qt::Vertical)));
+  stack_->addWidget(scrolled(makeSplitter(nullptr, reading_table_, look, 5, 6, Qt::Vertical)));
   right->body()->addWidget(stack_, 1);
-  column->addWidget(makeSplitter(left, right, 6, 7), 1);
+  column->addWidget(makeSplitter(this, left, right, 6, 7), 1);
 
   connect(which_, &Segments::chosen, this, [this](int) { arrange(); });
   connect(exclude_, &QPushButton::clicked, this, &NoisePanel::excludeAsked);

@@ -58,7 +58,7 @@ RemainderPanel::RemainderPanel(QWidget* parent) : QWidget(parent) {
   plot_->setEmptyText(tr("The remainder over time"),
                       tr("Search: what neither effects nor noise explain appears here."));
   plot_card_->body()->addWidget(plot_, 1);
-  column->addWidget(makeSplitter(left, plot_card_, 7, 6), 1);
+  column->addWidget(makeSplitter(this, left, plot_card_, 7, 6), 1);
 
   connect(component_table_->selectionModel(), &QItemSelectionModel::currentRowChanged, this,
           [this](const QModelIndex& now) {

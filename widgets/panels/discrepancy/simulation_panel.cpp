@@ -88,7 +88,7 @@ SimulationPanel::SimulationPanel(PageContext context, QWidget* parent) : QWidget
   figure_table_->setVerticalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   found_card_->body()->addWidget(figure_table_);
   found_card_->body()->addWidget(scroll, 1);
-  stack_->addWidget(makeSplitter(parameters_, found_card_, 3, 2));
+  stack_->addWidget(makeSplitter(stack_, parameters_, found_card_, 3, 2));
   history_ = new SimulationHistory;
   stack_->addWidget(history_);
   column->addWidget(stack_, 1);

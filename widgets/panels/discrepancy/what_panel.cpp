@@ -97,7 +97,7 @@ WhatPanel::WhatPanel(QWidget* parent) : QWidget(parent) {
   plot_->setEmptyText(tr("What the effects explain will appear here"), tr("Search, or choose another place."));
   detail_->body()->addWidget(plot_, 4);
   connect(plot_, &Plot::hovered, this, &WhatPanel::hovered);
-  column->addWidget(makeSplitter(left, detail_, 7, 6), 1);
+  column->addWidget(makeSplitter(this, left, detail_, 7, 6), 1);
 
   connect(effect_table_->selectionModel(), &QItemSelectionModel::currentRowChanged, this, [this] {
     showEffect();

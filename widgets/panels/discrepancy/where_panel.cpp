@@ -78,8 +78,8 @@ WherePanel::WherePanel(QWidget* parent) : QWidget(parent) {
   plot_->setEmptyText(tr("The residual over time will appear here"),
                       tr("Search, then choose a place in the table or a point on the machine."));
   plot_card->body()->addWidget(plot_, 1);
-  right_column->addWidget(makeSplitter(view_card, plot_card, 6, 5, Qt::Vertical), 1);
-  column->addWidget(makeSplitter(left, right, 6, 7), 1);
+  right_column->addWidget(makeSplitter(right, view_card, plot_card, 6, 5, Qt::Vertical), 1);
+  column->addWidget(makeSplitter(this, left, right, 6, 7), 1);
 
   connect(place_table_->selectionModel(), &QItemSelectionModel::currentRowChanged, this,
           [this](const QModelIndex& now) {

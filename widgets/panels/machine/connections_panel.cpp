@@ -79,9 +79,9 @@ ConnectionsPanel::ConnectionsPanel(PageContext page_context, QWidget* parent)
   columns_ = new ColumnsCard(
       [this](int row, const nlohmann::json& entry, const QString& what) { columnEdited(row, entry, what); });
   history_ = new HistoryCard;
-  auto* left = makeSplitter(sources_, items_, 2, 5, Qt::Vertical);
-  auto* right = makeSplitter(columns_, history_, 4, 3, Qt::Vertical);
-  column->addWidget(makeSplitter(left, right, 4, 8), 1);
+  auto* left = makeSplitter(nullptr, sources_, items_, 2, 5, Qt::Vertical);
+  auto* right = makeSplitter(nullptr, columns_, history_, 4, 3, Qt::Vertical);
+  column->addWidget(makeSplitter(this, left, right, 4, 8), 1);
 
   connect(look_, &QPushButton::clicked, this, [this] { lookAt(address_->text().trimmed()); });
   connect(address_, &QLineEdit::returnPressed, look_, &QPushButton::click);

@@ -45,7 +45,7 @@ ReferencePanel::ReferencePanel(PageContext page_context, QWidget* parent)
       tr("Evaluate the touches, then load what a grid encoder or interferometer recorded meanwhile."));
   differences_ = new Plot;
   differences_->setEmptyText(tr("The difference will appear here"), tr("With its uncertainty, cycle by cycle."));
-  column->addWidget(makeSplitter(curves_, differences_, 1, 1), 1);
+  column->addWidget(makeSplitter(this, curves_, differences_, 1, 1), 1);
   connect(load_, &QPushButton::clicked, this, [this] {
     const QString file =
         QFileDialog::getOpenFileName(this, tr("Record of the reference instrument"), {}, tr("Record (*.csv)"));

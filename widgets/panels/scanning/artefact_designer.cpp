@@ -90,10 +90,10 @@ ArtefactDesigner::ArtefactDesigner(WindowDraft draft, QWidget* parent) : QDialog
   weak->setToolTip(
       tr("Directions of the motion that are known thirty times less well than the best one; rotations "
          "times the artefact's length"));
-  auto* tables = makeSplitter(makeTable(sigmas_, tr("Standard uncertainty of the six errors")), weak, 1, 1);
+  auto* tables = makeSplitter(nullptr, makeTable(sigmas_, tr("Standard uncertainty of the six errors")), weak, 1, 1);
   tables->setMinimumHeight(300);  // all six errors
   right->body()->addWidget(tables);
-  column->addWidget(makeSplitter(left, right, 3, 7), 1);
+  column->addWidget(makeSplitter(this, left, right, 3, 7), 1);
 
   timer_.setSingleShot(true);
   timer_.setInterval(rest_ms);

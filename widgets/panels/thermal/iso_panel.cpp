@@ -70,7 +70,8 @@ IsoPanel::IsoPanel(QWidget* parent) : QWidget(parent) {
   plot(false)->setAxes(tr("Time / h"), tr("Displacement / µm"));
   plot(true)->setAxes(tr("Time / h"), tr("Rotation / µrad"));
   plot(true)->hide();
-  column->addWidget(makeSplitter(makeTable(rows_, tr("Parameters of ISO 230-3"),
+  column->addWidget(makeSplitter(this,
+                                 makeTable(rows_, tr("Parameters of ISO 230-3"),
                                            tr("Range, change and time of each component appear here.")),
                                  plots, 5, 6, Qt::Vertical),
                     1);
