@@ -38,9 +38,10 @@ constexpr double careful_shift = 0.7;
 constexpr double shifts_at_all = 0.5;
 constexpr double shifted_too = 0.9;
 constexpr double unlike_shifts_sd = 0.4;
-/// Sizes that are compared: the smallest over the own noise of a reading, how many, and their distance as logarithms.
+/// Sizes that are compared: the smallest over the own noise of a unit, how many where units are single readings, and
+/// their distance as logarithms.
 constexpr double smallest_shift = 0.06;
-constexpr int shift_sizes = 13;
+constexpr int fewest_shift_sizes = 13;
 constexpr double shift_step = 0.45;
 /// 2 ln of the odds against shifts that noise does not make.
 constexpr double impossible = 1e3;
@@ -549,18 +550,23 @@ void estimateWithCourses(const ResidualProblem& problem, ComponentEstimate& e, b
 }
 
 /// Sizes of shifts that are compared, um or urad: the same for all components of one unit, by the noise that the
-/// problem has.
+/// problem has. Where units are means of many readings the smallest that can be seen is smaller, and the largest as
+/// large as ever, so there are more of them.
 std::vector<double> shiftSizes(const ResidualProblem& problem, bool translations) {
   double sum = 0.0;
+  double merged = 0.0;
   double count = 0.0;
   for (Index u = 0; u < problem.size(); ++u) {
     const bool translation = static_cast<std::size_t>(problem.component[static_cast<std::size_t>(u)]) < 3;
     if (translation != translations) continue;
     sum += std::log(problem.ownSigma(u));
+    merged += std::log(problem.reading_sigma[u] / problem.sigma[u]);
     count += 1.0;
   }
+  constexpr double rounding = 1e-9;
+  const int beyond = static_cast<int>(std::ceil(merged / std::max(1.0, count) / shift_step - rounding));
   std::vector<double> out;
-  for (int i = 0; i < shift_sizes; ++i)
+  for (int i = 0; i < fewest_shift_sizes + std::max(0, beyond); ++i)
     out.push_back(smallest_shift * std::exp(sum / std::max(1.0, count) + shift_step * i));
   return out;
 }
@@ -708,32 +714,33 @@ double jointDeviance(const NoiseProfiles& profiles, std::vector<double> NoisePro
   double out = 0.0;
   for (const std::size_t from : {0, 3}) {
     // Likelihood of all components for each common size, over that without any shifts.
-    std::vector<double> ln_level(shift_sizes, 0.0);
-    bool shifted = false;
+    std::vector<double> ln_level;
     for (std::size_t c = from; c < from + 3; ++c) {
       const std::vector<double>& deviance = profiles[c].*profile;
       if (deviance.empty()) continue;
       out += deviance.back();
       if (deviance.size() == 1) continue;
-      shifted = true;
-      for (int level = 0; level < shift_sizes; ++level) {
+      const std::size_t sizes = deviance.size() - 1;
+      ln_level.resize(sizes, 0.0);  // the same for all components of a unit
+      for (std::size_t level = 0; level < sizes; ++level) {
         double prior = 0.0;
         double likelihood = 0.0;
         const double least = *std::min_element(deviance.begin(), deviance.end());
-        for (int i = 0; i < shift_sizes; ++i) {
-          const double w = std::exp(-0.5 * std::pow(shift_step * (i - level) / unlike_shifts_sd, 2));
+        for (std::size_t i = 0; i < sizes; ++i) {
+          const double apart = shift_step * (static_cast<double>(i) - static_cast<double>(level));
+          const double w = std::exp(-0.5 * std::pow(apart / unlike_shifts_sd, 2));
           prior += w;
-          likelihood += w * std::exp(-0.5 * (deviance[static_cast<std::size_t>(i)] - least));
+          likelihood += w * std::exp(-0.5 * (deviance[i] - least));
         }
         const double ln_none = -0.5 * (deviance.back() - least);  // of large shifts far below what exp can hold
-        ln_level[static_cast<std::size_t>(level)] +=
+        ln_level[level] +=
             std::log(shifted_too * likelihood / prior + (1.0 - shifted_too) * std::exp(ln_none)) - ln_none;
       }
     }
-    if (!shifted) continue;
+    if (ln_level.empty()) continue;
     const double most = std::max(0.0, *std::max_element(ln_level.begin(), ln_level.end()));
     double sum = (1.0 - shifts_at_all) * std::exp(-most);
-    for (const double ln : ln_level) sum += shifts_at_all / shift_sizes * std::exp(ln - most);
+    for (const double ln : ln_level) sum += shifts_at_all / static_cast<double>(ln_level.size()) * std::exp(ln - most);
     out -= 2.0 * (most + std::log(sum));
   }
   return out;

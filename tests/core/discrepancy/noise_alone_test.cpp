@@ -112,6 +112,26 @@ TEST(NoiseAlone, ShiftsOfStatesAreJudgedByReadingsWhereManyOfThemAreMerged) {
   }
 }
 
+TEST(NoiseAlone, TheLargestShiftsAreComparedHoweverManyReadingsAUnitHas) {
+  // Shifts as large as a reading scatters: more than twenty times the scatter of a unit of hundreds.
+  constexpr std::size_t many_points = 5000;
+  constexpr Eigen::Index units = 300;
+  for (const std::uint64_t seed : {1U, 2U, 3U}) {
+    const DiscrepancyInput in = readings(seed, {own_um, own_um, own_um}, 0.0, many_points);
+    std::vector<std::size_t> rows(in.observations.rows.size());
+    for (std::size_t i = 0; i < rows.size(); ++i) rows[i] = i;
+    ResidualProblem problem(in, rows, units);
+    ASSERT_GT(problem.reading_sigma.mean(), 20.0 * problem.sigma.mean());
+    problem.setNoise(estimateNoise(problem, problem.y, true));
+    for (const NoiseProfile& profile : noiseProfiles(problem, problem.y, translations)) {
+      if (profile.with_unknown.empty()) continue;
+      const auto best = std::min_element(profile.with_unknown.begin(), profile.with_unknown.end());
+      EXPECT_LT(best - profile.with_unknown.begin() + 2, static_cast<std::ptrdiff_t>(profile.with_unknown.size()))
+          << seed << ": the most probable size is the largest that is compared";
+    }
+  }
+}
+
 TEST(NoiseAlone, ShiftsOfOtherAxesSpeakForThoseOfThis) {
   // As large as the scatter of a state's mean: alone hardly to be seen.
   constexpr double shift_um = 0.25;
