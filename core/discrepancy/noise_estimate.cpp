@@ -3,6 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <map>
 #include <mutex>
@@ -721,7 +722,8 @@ double jointDeviance(const NoiseProfiles& profiles, std::vector<double> NoisePro
       out += deviance.back();
       if (deviance.size() == 1) continue;
       const std::size_t sizes = deviance.size() - 1;
-      ln_level.resize(sizes, 0.0);  // the same for all components of a unit
+      assert(ln_level.empty() || ln_level.size() == sizes);  // compared are the same for all components of a unit
+      ln_level.resize(sizes, 0.0);
       for (std::size_t level = 0; level < sizes; ++level) {
         double prior = 0.0;
         double likelihood = 0.0;
