@@ -35,7 +35,8 @@ class Editor : public QTableWidget {
 
  protected:
   void updateGeometries() override {
-    if (auto* titles = dynamic_cast<TableTitles*>(horizontalHeader())) titles->fit(leastWidth(false));
+    if (auto* titles = dynamic_cast<TableTitles*>(horizontalHeader()))
+      titles->fit(leastWidth(false), columnCount() > 0 ? sizeHintForColumn(columnCount() - 1) : 0);
     QTableWidget::updateGeometries();
   }
   void paintEvent(QPaintEvent* event) override {

@@ -359,9 +359,8 @@ class QuietTable : public QTableView {
     const bool empty = model() == nullptr || model()->rowCount() == 0;
     if (stretched() < 0) setHorizontalScrollBarPolicy(empty ? Qt::ScrollBarAlwaysOff : Qt::ScrollBarAsNeeded);
     if (auto* titles = dynamic_cast<TableTitles*>(horizontalHeader())) {
-      titles->fit(leastWidth(false));
-      if (const int last = titles->count() - 1; last >= 0 && stretched() < 0 && titles->stretchLastSection())
-        titles->fitLast(leastWidthOf(last, titles->narrow()));
+      const int last = titles->count() - 1;
+      titles->fit(leastWidth(false), last >= 0 && stretched() < 0 ? leastWidthOf(last, true) : 0);
     }
     QTableView::updateGeometries();
     startWithAWholeRow();

@@ -64,19 +64,20 @@ TableTitles::TableTitles(QWidget* parent) : QHeaderView(Qt::Horizontal, parent) 
   setHighlightSections(false);
 }
 
-void TableTitles::fit(int width_px) {
+void TableTitles::fit(int width_px, int last_px) {
   auto* table = qobject_cast<QAbstractItemView*>(parentWidget());
   const bool narrow = table != nullptr && width_px > table->viewport()->width();
-  if (narrow == narrow_) return;
-  narrow_ = narrow;
-  if (count() > 0) headerDataChanged(orientation(), 0, count() - 1);  // the height anew
-  resizeSections();
-  updateGeometry();
-  table->updateGeometry();  // a second line takes its height
-}
-
-void TableTitles::fitLast(int least_px) {
-  if (sectionSize(count() - 1) < least_px) resizeSection(count() - 1, least_px);
+  if (narrow != narrow_) {
+    narrow_ = narrow;
+    if (count() > 0) headerDataChanged(orientation(), 0, count() - 1);  // the height anew
+    resizeSections();
+    updateGeometry();
+    table->updateGeometry();  // a second line takes its height
+  }
+  const int last = count() - 1;
+  if (last < 0 || last_px <= 0 || !stretchLastSection()) return;
+  const int least = std::max(last_px, titleWidth(last, narrow_));
+  if (sectionSize(last) < least) resizeSection(last, least);
 }
 
 QString TableTitles::title(int section) const {

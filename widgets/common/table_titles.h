@@ -12,10 +12,9 @@ class TableTitles : public QHeaderView {
  public:
   explicit TableTitles(QWidget* parent);
   /// In two lines, each title as narrow as its words allow, where the columns have no room beside each other: they ask
-  /// for `width_px` with titles in one line. For the updateGeometries of the table that the titles belong to.
-  void fit(int width_px);
-  /// The last column, which takes what the others leave, is never narrower than `least_px`. For updateGeometries, too.
-  void fitLast(int least_px);
+  /// for `width_px` with titles in one line. A last column that takes what the others leave is never narrower than its
+  /// title and `last_px`, what is in it; 0: it may be. For the updateGeometries of the table that the titles belong to.
+  void fit(int width_px, int last_px);
   [[nodiscard]] bool narrow() const { return narrow_; }
   /// What a title asks for in one line, or in two.
   [[nodiscard]] int titleWidth(int section, bool narrow) const;

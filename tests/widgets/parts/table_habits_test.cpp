@@ -11,8 +11,10 @@
 #include <QMenu>
 #include <QScrollBar>
 #include <QTableView>
+#include <QTableWidget>
 #include <QTest>
 
+#include "widgets/common/editor_table.h"
 #include "widgets/common/parts.h"
 #include "widgets/export/exportable.h"
 #include "widgets/models/rows_model.h"
@@ -170,6 +172,35 @@ TEST_F(TableHabitsTest, NoFormulaGetsIntoASpreadsheetAndNumbersStayNumbers) {
             QStringLiteral("'=1+1\n-7.5\n\"a, \"\"b\"\"\"\ntwo\tparts\n"));
   EXPECT_EQ(tableText(model_, all, {1}, false, TableText::Tabs), QStringLiteral("'=1+1\n-7.5\na, \"b\"\ntwo parts\n"));
   EXPECT_TRUE(tableCsv(model_).contains(QStringLiteral("F10,-7.5\n"))) << tableCsv(model_).toStdString();
+}
+
+/// The last column takes what the others leave, and never less than what is in it: at every width, whichever way it was
+/// reached.
+TEST(EditorTableTest, KeepsTheLastColumnWholeAtEveryWidth) {
+  const std::unique_ptr<QTableWidget> table(
+      makeEditor({QStringLiteral("Axis"), QStringLiteral("Fixed bearing\n/ mm"), QStringLiteral("Scale")},
+                 QStringLiteral("Linear axes")));
+  table->resize(700, 300);
+  table->show();
+  ASSERT_TRUE(QTest::qWaitForWindowExposed(table.get()));
+  const auto expectWhole = [&table](const char* when) {
+    QCoreApplication::processEvents();
+    const int needed = table->fontMetrics().horizontalAdvance(QStringLiteral("rotary encoder")) + 12;
+    EXPECT_GE(table->columnWidth(2), needed) << when << " at " << table->width();
+  };
+  table->setRowCount(1);
+  for (int column = 0; const char* text : {"X", "0", "rotary encoder"})
+    setText(table.get(), 0, column++, QString::fromLatin1(text));
+  expectWhole("filled");
+  for (const int width : {260, 240, 220, 200, 180, 700, 180, 230}) {
+    table->resize(width, 300);
+    expectWhole("resized");
+  }
+  table->setRowCount(0);
+  table->setRowCount(1);
+  for (int column = 0; const char* text : {"X", "0", "rotary encoder"})
+    setText(table.get(), 0, column++, QString::fromLatin1(text));
+  expectWhole("filled again");
 }
 
 }  // namespace
