@@ -24,7 +24,6 @@ constexpr qsizetype longest = 6000;  ///< characters; what is longer is a docume
 constexpr qsizetype most_known = 4000;
 constexpr qsizetype shortest_key = 3;
 constexpr qsizetype telling = 12;        ///< letters of a format that nothing else is likely to have
-constexpr int most_matches = 4;          ///< formats that are tried on one sentence
 constexpr qsizetype longest_list = 300;  ///< characters of "this, that and more"
 
 /// A format of {fmt}, cut at its placeholders.
@@ -172,7 +171,6 @@ class Catalogue {
   Rendered whole(const QString& english, int depth) {
     if (const auto found = whole_.find(english); found != whole_.end()) return {found->second, english.size()};
     Rendered best;
-    int matches = 0;
     for (Entry& entry : entries_) {
       if (entry.letters > english.size() || !english.contains(entry.key)) continue;
       if (!entry.english.pieces.front().isEmpty() && !english.startsWith(entry.english.pieces.front())) continue;
@@ -193,7 +191,6 @@ class Catalogue {
       }
       if (!sensible) continue;
       if (made.known > best.known) best = std::move(made);
-      if (++matches == most_matches) break;
     }
     return best;
   }

@@ -299,6 +299,23 @@ TEST_F(LanguageTest, ValuesOfASentenceAreTranslatedAndNumbersWrittenAsTheLanguag
             QStringLiteral("Nobody ever wrote such a thing 1,5 times."));
 }
 
+/// What machine and sensors did, in the sentence of the warm-up: parts of parts are told apart, none keeps its English.
+TEST_F(LanguageTest, ListsWithinSentencesAreTranslatedToTheirLastWord) {
+  applyLanguage(QStringLiteral("de"));
+  EXPECT_EQ(coreSentence("temperature of spindle by 22.2 K, temperature of housing by 13.9 K and temperature of column "
+                         "front by 4.2 K")
+                .toStdString(),
+            "Temperatur spindle um 22,2 K, Temperatur housing um 13,9 K und Temperatur Ständer vorn um 4,2 K");
+  const QString german = coreSentence(
+      "The thermal drift of the machine and a drift of the instrument cannot be separated here, because it was at work "
+      "(spindle speed, feed X and feed Y), temperature of spindle by 22.2 K, temperature of housing by 13.9 K and "
+      "temperature "
+      "of column front by 4.2 K changed; measure one point of the machine at rest again and again, or state that the "
+      "instrument was warm.");
+  for (const char* english : {" by ", "changed", " and ", "feed", "work"})
+    EXPECT_FALSE(german.contains(QLatin1String(english))) << english << " in: " << german.toStdString();
+}
+
 /// Every format of core, filled with values, comes out in German: no format hides behind another one.
 TEST_F(LanguageTest, EveryFormatOfCoreIsFoundWithItsValues) {
   applyLanguage(QStringLiteral("de"));
