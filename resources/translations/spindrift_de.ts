@@ -19004,6 +19004,14 @@ einsatz</translation>
         <source>, median |dz| %1 µm</source>
         <translation>, Median |dz| %1 µm</translation>
     </message>
+    <message>
+        <source>98 % of the points: %1 to %2 %3</source>
+        <translation>98 % der Punkte: %1 bis %2 %3</translation>
+    </message>
+    <message>
+        <source>Largest: %1 at %2</source>
+        <translation>Größter Wert: %1 bei %2</translation>
+    </message>
 </context>
 <context>
     <name>spindrift::gui::ScanCapturePage</name>

@@ -355,7 +355,8 @@ void ReviewPage::showSection() {
 void ReviewPage::probe(View3D* view, const QPointF& pixel) {
   const auto component = static_cast<Component>(component_->current());
   for (ReviewPane* pane : panes_) {
-    if (pane->isHidden() || pane->isScan() || view->size() != pane->view()->size()) {
+    if (pane->isHidden() || pane->isScan()) continue;
+    if (view->size() != pane->view()->size()) {
       pane->setValue({});
       continue;
     }

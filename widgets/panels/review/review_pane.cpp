@@ -95,6 +95,7 @@ ReviewPane::ReviewPane(int number, ReviewSources& sources, QWidget* parent)
   value_->setMinimumHeight(20);
   column->addWidget(value_);
   view_->resetCamera(StandardView::Top);
+  connect(scan_view_, &View3D::hovered, this, &ReviewPane::setValue);
 
   connect(campaign_, &QComboBox::currentIndexChanged, this, [this] {
     if (filling_) return;
@@ -175,6 +176,7 @@ std::string ReviewPane::state(const std::string& at_slider) const {
 void ReviewPane::show(const ReviewPicture& picture, const std::optional<double>& limit, bool arrows,
                       double exaggeration, bool machine, bool values) {
   picture_ = picture;
+  sayWhole(picture);
   stack_->setCurrentWidget(view_);
   const auto from = source();
   if (from == nullptr) return;
@@ -238,11 +240,19 @@ void ReviewPane::showScan(const ScanPicture& picture, const QString& title, doub
   scan_view_->setCaption(picture.colouring == ScanColouring::Height
                              ? title + tr(": the reference itself, height")
                              : title + tr(", median |dz| %1 µm").arg(decimalText(picture.median_magnitude, 'f', 2)));
+  const bool height = picture.colouring == ScanColouring::Height;
+  const int decimals = height ? 3 : 1;
+  whole_ = onScreen(tr("98 % of the points: %1 to %2 %3")
+                        .arg(decimalText(picture.low, 'f', decimals), decimalText(picture.high, 'f', decimals),
+                             height ? QStringLiteral("mm") : QStringLiteral("µm")));
+  setValue({});
 }
 
 void ReviewPane::showMessage(const QString& title, const QString& how) {
   picture_ = {};
   picture_.message = how.toStdString();
+  whole_.clear();
+  setValue({});
   machine_of_.clear();
   View3D* shown = isScan() ? scan_view_ : view_;
   stack_->setCurrentWidget(shown);
@@ -251,7 +261,26 @@ void ReviewPane::showMessage(const QString& title, const QString& how) {
 }
 
 void ReviewPane::setValue(const QString& text) {
-  value_->setText(onScreen(text));
+  value_->setText(text.isEmpty() ? whole_ : onScreen(text));
+}
+
+void ReviewPane::sayWhole(const ReviewPicture& picture) {
+  const ReviewPoint* largest = nullptr;
+  double most = -1.0;
+  for (const ReviewPoint& p : picture.points) {
+    const auto v = p.components.find(picture.component);
+    if (v == p.components.end() || !(std::abs(v->second.value) > most)) continue;
+    most = std::abs(v->second.value);
+    largest = &p;
+  }
+  whole_.clear();
+  if (largest != nullptr) {
+    const ReviewValue& v = largest->components.at(picture.component);
+    whole_ = onScreen(tr("Largest: %1 at %2")
+                          .arg(shownNumbers(fromCore(withUncertainty(v.value, v.sigma, unitOf(picture.component)))),
+                               fromCore(largest->id)));
+  }
+  setValue({});
 }
 
 QString ReviewPane::value() const {

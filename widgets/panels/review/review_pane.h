@@ -52,6 +52,8 @@ class ReviewPane : public QFrame {
             bool machine, bool values);
   void showScan(const ScanPicture& picture, const QString& title, double limit);
   void showMessage(const QString& title, const QString& how);
+  /// Of the place under the cursor, in the units of files; empty: what the pane says of the whole, its largest value or
+  /// the range of its scan.
   void setValue(const QString& text);
   [[nodiscard]] QString value() const;
   [[nodiscard]] const ReviewPicture& picture() const { return picture_; }
@@ -66,6 +68,7 @@ class ReviewPane : public QFrame {
 
  private:
   void fillStates();
+  void sayWhole(const ReviewPicture& picture);
 
   ReviewSources& sources_;
   QComboBox* campaign_;
@@ -76,6 +79,7 @@ class ReviewPane : public QFrame {
   View3D* scan_view_;
   QLabel* value_;
   ReviewPicture picture_;
+  QString whole_;           ///< said while the cursor is elsewhere: the largest value, or the range of a scan
   std::string machine_of_;  ///< folder of the campaign whose machine is in the view (ids start again in every session)
   bool filling_ = false;
   bool first_;
