@@ -19470,6 +19470,10 @@ einsatz</translation>
         <source>Updated simulation over the table</source>
         <translation>Aktualisierte Simulation über dem Tisch</translation>
     </message>
+    <message>
+        <source>The map is being worked out.</source>
+        <translation>Die Karte wird berechnet.</translation>
+    </message>
 </context>
 <context>
     <name>spindrift::gui::SimulationPanel</name>

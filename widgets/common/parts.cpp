@@ -308,6 +308,7 @@ QPushButton* makeButton(const QString& text, const char* icon_name, const char* 
   if (icon_name != nullptr) {
     button->setIcon(icon(icon_name));
     button->setIconSize({sizes::icon, sizes::icon});
+    drawIconOnAccent(*button, QLatin1String(role) == QLatin1String("primary"));
   }
   return button;
 }

@@ -5,6 +5,16 @@
 
 namespace spindrift::gui {
 
+LatestWork::~LatestWork() {
+  setRunning(false);
+}
+
+void LatestWork::setRunning(bool running) {
+  if (running == running_) return;
+  running_ = running;
+  working += running ? 1 : -1;
+}
+
 void LatestWork::ask(Work work) {
   if (running_) {
     next_ = std::move(work);
@@ -19,7 +29,7 @@ void LatestWork::forget() {
 }
 
 void LatestWork::start(Work work) {
-  running_ = true;
+  setRunning(true);
   wanted_ = true;
   thread_ = std::jthread([this, work = std::move(work)] {
     answer_ = work();
@@ -31,7 +41,7 @@ void LatestWork::start(Work work) {
 void LatestWork::complete() {
   if (thread_.joinable()) thread_.join();
   const std::function<void()> answer = std::exchange(answer_, nullptr);
-  running_ = false;
+  setRunning(false);
   if (next_) {
     start(std::exchange(next_, nullptr));
     return;

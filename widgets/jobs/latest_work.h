@@ -18,11 +18,13 @@ class LatestWork : public QObject {
 
   explicit LatestWork(QObject* parent = nullptr) : QObject(parent) {}
   /// Waits for what runs; its answer is dropped.
-  ~LatestWork() override = default;
+  ~LatestWork() override;
   void ask(Work work);
   /// The answer that is under way is not wanted any more.
   void forget();
   [[nodiscard]] bool busy() const { return running_; }
+  /// Whether any of the program is busy: what it shows may still change. GUI thread.
+  [[nodiscard]] static bool anyBusy() { return working > 0; }
 
  Q_SIGNALS:
   void idle();
@@ -31,6 +33,9 @@ class LatestWork : public QObject {
   void start(Work work);
   void complete();
 
+  void setRunning(bool running);
+
+  static inline int working = 0;
   bool running_ = false;
   bool wanted_ = false;
   Work next_;

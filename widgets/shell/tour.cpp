@@ -15,6 +15,7 @@
 
 #include "widgets/common/parts.h"
 #include "widgets/jobs/job_bar.h"
+#include "widgets/jobs/latest_work.h"
 #include "widgets/pages/report/report_page.h"
 #include "widgets/panels/scanning/artefact_designer.h"
 #include "widgets/report/page_view.h"
@@ -112,7 +113,7 @@ void finishWhatWasPutOff() {
 }
 
 bool settled(MainWindow& window) {
-  return !window.arriving() && !window.jobs().busy() && !viewsBusy(window);
+  return !window.arriving() && !window.jobs().busy() && !LatestWork::anyBusy() && !viewsBusy(window);
 }
 
 bool waitForJobs(MainWindow& window, int seconds) {

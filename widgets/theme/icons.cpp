@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "widgets/theme/icons.h"
 
+#include <QAbstractButton>
 #include <QApplication>
 #include <QFile>
 #include <QIconEngine>
@@ -14,9 +15,13 @@
 namespace spindrift::gui {
 namespace {
 
+/// What an icon is drawn on.
+enum class Ground { Surface, Accent };
+
 class LineIconEngine : public QIconEngine {
  public:
-  LineIconEngine(QString name, std::optional<QColor> colour) : name_(std::move(name)), colour_(std::move(colour)) {}
+  LineIconEngine(QString name, std::optional<QColor> colour, Ground ground = Ground::Surface)
+      : name_(std::move(name)), colour_(std::move(colour)), ground_(ground) {}
 
   void paint(QPainter* painter, const QRect& rect, QIcon::Mode mode, QIcon::State) override {
     const double ratio = painter->device() != nullptr ? painter->device()->devicePixelRatioF() : 1.0;
@@ -35,16 +40,18 @@ class LineIconEngine : public QIconEngine {
                       static_cast<int>(std::lround(std::min(size.width(), size.height()) / scale)), scale);
   }
 
-  [[nodiscard]] QIconEngine* clone() const override { return new LineIconEngine(name_, colour_); }
+  [[nodiscard]] QIconEngine* clone() const override { return new LineIconEngine(name_, colour_, ground_); }
+  QString iconName() override { return name_; }
 
  private:
   [[nodiscard]] QColor colourFor(QIcon::Mode mode) const {
     if (mode == QIcon::Disabled) return theme().text_disabled;
-    return colour_.value_or(theme().text);
+    return colour_.value_or(ground_ == Ground::Accent ? theme().accent_text : theme().text);
   }
 
   QString name_;
   std::optional<QColor> colour_;
+  Ground ground_;
 };
 
 QByteArray iconText(const QString& name) {
@@ -77,6 +84,12 @@ QPixmap iconPixmap(const QString& name, const QColor& colour, int size, double d
 
 QIcon icon(const char* name) {
   return QIcon(new LineIconEngine(QString::fromLatin1(name), std::nullopt));
+}
+
+void drawIconOnAccent(QAbstractButton& button, bool on_accent) {
+  const QString name = button.icon().name();
+  if (name.isEmpty()) return;
+  button.setIcon(QIcon(new LineIconEngine(name, std::nullopt, on_accent ? Ground::Accent : Ground::Surface)));
 }
 
 QIcon icon(const char* name, const QColor& colour) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "widgets/theme/theme.h"
 
+#include <QAbstractButton>
 #include <QApplication>
 #include <QFont>
 #include <QPalette>
@@ -11,6 +12,7 @@
 #include <cmath>
 
 #include "widgets/theme/fonts.h"
+#include "widgets/theme/icons.h"
 #include "widgets/theme/light_colours.h"
 #include "widgets/theme/style_sheet.h"
 
@@ -226,6 +228,8 @@ void setRole(QWidget* widget, const char* role) {
   widget->setProperty("role", QString::fromLatin1(role));
   widget->style()->unpolish(widget);
   widget->style()->polish(widget);
+  if (auto* button = qobject_cast<QAbstractButton*>(widget))
+    drawIconOnAccent(*button, widget->property("role").toString() == QLatin1String("primary"));
 }
 
 }  // namespace spindrift::gui

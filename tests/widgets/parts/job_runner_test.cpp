@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "widgets/jobs/job_runner.h"
+#include "widgets/jobs/latest_work.h"
 
 #include <gtest/gtest.h>
 
@@ -8,6 +9,7 @@
 #include <QTableView>
 #include <QTest>
 #include <atomic>
+#include <future>
 #include <string>
 #include <thread>
 #include <vector>
@@ -156,6 +158,27 @@ TEST(JobRunner, ABatchKeepsNobodyFromWorking) {
   go_on = true;
   EXPECT_TRUE(QTest::qWaitFor([&] { return !runner.busy(); }, 10000));
   EXPECT_EQ(applied, (std::vector<std::string>{"work", "batch"}));
+}
+
+TEST(LatestWork, SaysThatItIsBusyUntilTheAnswerIsThere) {
+  ASSERT_FALSE(LatestWork::anyBusy());
+  int answered = 0;
+  std::promise<void> go;
+  {
+    LatestWork work;
+    work.ask([done = go.get_future().share(), &answered] {
+      done.wait();
+      return [&answered] { ++answered; };
+    });
+    EXPECT_TRUE(LatestWork::anyBusy());
+    work.ask([&answered] { return [&answered] { answered += 10; }; });
+    go.set_value();
+    EXPECT_TRUE(QTest::qWaitFor([] { return !LatestWork::anyBusy(); }, 5000));
+    EXPECT_EQ(answered, 10) << "the first was not wanted any more";
+    work.ask([] { return [] {}; });
+    EXPECT_TRUE(LatestWork::anyBusy());
+  }
+  EXPECT_FALSE(LatestWork::anyBusy()) << "nobody waits for what is gone";
 }
 
 TEST(JobRunner, TheLatestOfAKeyWins) {

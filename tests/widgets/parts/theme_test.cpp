@@ -3,10 +3,14 @@
 
 #include <gtest/gtest.h>
 
+#include <QApplication>
 #include <QFile>
 #include <QFontMetricsF>
+#include <QPushButton>
 #include <cmath>
+#include <memory>
 
+#include "widgets/common/parts.h"
 #include "widgets/theme/colour_map.h"
 #include "widgets/theme/fonts.h"
 #include "widgets/theme/icons.h"
@@ -64,6 +68,27 @@ TEST(Icons, AreTintedAndSharpAtAnyRatio) {
     }
   }
   EXPECT_GT(coloured, 20);
+}
+
+/// Most of what is drawn has the colour of the text beside it, in both themes and after the role has changed.
+TEST(Icons, HaveTheColourOfTheTextOfTheirButton) {
+  const auto inkOf = [](const QPushButton& button) {
+    const QImage picture = button.icon().pixmap(QSize(32, 32)).toImage();
+    QColor ink;
+    for (int y = 0; y < picture.height(); ++y)
+      for (int x = 0; x < picture.width(); ++x)
+        if (picture.pixelColor(x, y).alpha() == 255) ink = picture.pixelColor(x, y);
+    return ink;
+  };
+  for (const ThemeKind kind : {ThemeKind::Dark, ThemeKind::Light}) {
+    applyTheme(*qApp, kind);
+    const std::unique_ptr<QPushButton> button(makeButton(QStringLiteral("Next"), "plus", "primary"));
+    EXPECT_EQ(inkOf(*button).name(), theme().accent_text.name());
+    setRole(button.get(), "secondary");
+    EXPECT_EQ(inkOf(*button).name(), theme().text.name());
+    setRole(button.get(), "primary");
+    EXPECT_EQ(inkOf(*button).name(), theme().accent_text.name());
+  }
 }
 
 TEST(ColourMap, DivergesFromANeutralZero) {

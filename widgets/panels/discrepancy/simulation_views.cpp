@@ -94,8 +94,6 @@ SimulationMaps::SimulationMaps(QWidget* parent) : QWidget(parent) {
     views_[i] = new View3D;
     views_[i]->setMachineVisible(false);
     views_[i]->setToolSideVisible(false);
-    views_[i]->setEmptyText(tr("Measured minus simulation"),
-                            tr("The points of no moment span a plane: there is no map over the table."));
     cards_[i]->body()->addWidget(views_[i], 1);
     line->addWidget(cards_[i], 1);
     connect(views_[i], &View3D::hovered, this, &SimulationMaps::hovered);
@@ -106,15 +104,21 @@ SimulationMaps::SimulationMaps(QWidget* parent) : QWidget(parent) {
 void SimulationMaps::show(const std::shared_ptr<const SimulationStory>& story, const MachineDescription& machine) {
   shown_ = false;
   for (View3D* view : views_) view->clear();
+  sayWhyEmpty(tr("The map is being worked out."));
   for (std::size_t i = 0; i < 2; ++i) cards_[i]->setTitle(i == 0 ? tr("Before") : tr("After"));
   work_.ask([this, story, machine]() -> std::function<void()> {
     const std::optional<FieldGrid> table = mapTable(machine, 0.0, report_map_nodes);
     double time_s = 0.0;
     auto maps = table ? discrepancyMaps(story->rows, *table, time_s) : std::nullopt;
-    if (!maps) return [] {};
+    if (!maps)
+      return [this] { sayWhyEmpty(tr("The points of no moment span a plane: there is no map over the table.")); };
     const double last_s = story->rows.empty() ? time_s : std::max(time_s, story->rows.back().time_s);
     return [this, maps = std::move(*maps), machine, time_s, last_s] { draw(maps, machine, time_s, last_s); };
   });
+}
+
+void SimulationMaps::sayWhyEmpty(const QString& why) {
+  for (View3D* view : views_) view->setEmptyText(tr("Measured minus simulation"), why);
 }
 
 void SimulationMaps::draw(const std::array<Field, 2>& maps, const MachineDescription& machine, double time_s,

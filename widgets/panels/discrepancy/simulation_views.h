@@ -64,6 +64,7 @@ class SimulationMaps : public QWidget {
   void hovered(const QString& text);
 
  private:
+  void sayWhyEmpty(const QString& why);
   /// Before and after, at `time_s`; the measurement ends at `last_s`.
   void draw(const std::array<Field, 2>& maps, const MachineDescription& machine, double time_s, double last_s);
 

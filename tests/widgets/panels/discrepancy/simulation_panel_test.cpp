@@ -215,8 +215,10 @@ TEST_F(SimulationPanelTest, NamesTheMechanismPutsItInStoresReportsAndUndoes) {
   picture("history");
   panel_->views()->button(2)->click();
   ASSERT_NE(panel_->maps(), nullptr);
-  // The maps are worked out beside the window.
-  EXPECT_TRUE(QTest::qWaitFor([&] { return !panel_->maps()->empty(); }, 20'000));
+  EXPECT_TRUE(panel_->maps()->empty()) << "worked out beside the window";
+  EXPECT_FALSE(settled(*window_));
+  wait();
+  EXPECT_FALSE(panel_->maps()->empty());
   EXPECT_EQ(panel_->maps()->view(false)->colourScale(), panel_->maps()->view(true)->colourScale());
   picture("maps");
   for (const Exportable& item : page_->exportables()) {
