@@ -180,13 +180,15 @@ void showPrediction(ReviewPicture& picture, const ObservationSet& observations, 
   }
 }
 
-/// A field between the points that took part.
+/// A field between the points that took part; of a state that is held out as a whole, between all.
 void addFieldBetween(ReviewPicture& picture, const MachineDescription& machine, int nodes) {
+  const bool held_out =
+      std::none_of(picture.points.begin(), picture.points.end(), [](const ReviewPoint& p) { return p.used; });
   std::vector<ScatteredValue> values;
   double largest = 0.0, z = 0.0;
   for (const ReviewPoint& p : picture.points) {
     const auto v = p.components.find(picture.component);
-    if (v == p.components.end() || !p.used || !std::isfinite(v->second.value)) continue;
+    if (v == p.components.end() || !(p.used || held_out) || !std::isfinite(v->second.value)) continue;
     values.push_back({p.position_mm, v->second.value, v->second.sigma});
     largest = std::max(largest, std::abs(v->second.value));
     z += p.position_mm.z();
@@ -266,6 +268,9 @@ ReviewPicture reviewOf(const ObservationSet& observations, const MachineDescript
     default:
       showPrediction(picture, observations, request, prediction);
   }
+  if (!picture.points.empty() && picture.message.empty() &&
+      std::none_of(picture.points.begin(), picture.points.end(), [](const ReviewPoint& p) { return p.used; }))
+    picture.message = "Held out: dashed points took no part in any fit.";
   if (request.heat_map && request.quantity != ReviewQuantity::NineParameters)
     addFieldBetween(picture, machine, request.nodes);
   findLargest(picture);

@@ -9812,6 +9812,10 @@ endgültig fehlgeschlagen: {}</translation>
         <source>0, or a size of at least {:g}: µm/(m·K), where steel has 11.5, not 1/K</source>
         <translation>0, oder ein Betrag von mindestens {:g}: µm/(m·K), worin Stahl 11,5 hat, nicht 1/K</translation>
     </message>
+    <message>
+        <source>Held out: dashed points took no part in any fit.</source>
+        <translation>Zurückgehalten: gestrichelte Punkte nahmen an keiner Anpassung teil.</translation>
+    </message>
 </context>
 <context>
     <name>help</name>

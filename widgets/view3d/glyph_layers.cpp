@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "widgets/theme/theme.h"
 
@@ -134,6 +135,15 @@ void ArrowLayer::place(double mm_per_pixel, double line_width) {
 
 void ArrowLayer::raise(const Eigen::Vector3d& by_mm) {
   for (vtkActor* actor : {shafts_.actor.Get(), heads_.actor.Get()}) actor->SetPosition(by_mm.x(), by_mm.y(), by_mm.z());
+}
+
+double ArrowLayer::lowest_mm(const Eigen::Vector3d& direction) const {
+  double lowest = std::numeric_limits<double>::infinity();
+  for (const ViewArrow& arrow : arrows_) {
+    const Eigen::Vector3d tip = arrow.from_mm + 1e-3 * exaggeration_ * arrow.deviation_um;
+    lowest = std::min({lowest, direction.dot(arrow.from_mm), direction.dot(tip)});
+  }
+  return lowest;
 }
 
 void ArrowLayer::onMappers(const std::function<void(vtkMapper*)>& act) {

@@ -32,6 +32,8 @@ class ArrowLayer {
   void place(double mm_per_pixel, double line_width);
   /// Moves all of them, out of a heat map that lies where they begin.
   void raise(const Eigen::Vector3d& by_mm);
+  /// The lowest coordinate along `direction` of any end of any arrow, mm; infinite without arrows.
+  [[nodiscard]] double lowest_mm(const Eigen::Vector3d& direction) const;
   void onMappers(const std::function<void(vtkMapper*)>& act);
 
  private:

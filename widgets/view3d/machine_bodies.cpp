@@ -44,7 +44,8 @@ Extent extentAround(double middle, double half) {
 /// Puts the bodies together: what carries the workpiece downwards from the table, then what carries the tool.
 class Builder {
  public:
-  explicit Builder(const MachineDescription& machine) : machine_(machine), vertical_(machine.chain.verticalSpindle()) {
+  Builder(const MachineDescription& machine, double lowest_mm)
+      : machine_(machine), vertical_(machine.chain.verticalSpindle()), lowest_mm_(lowest_mm) {
     if (!vertical_) layout_.axis = {0, 2, 1};
     result_.vertical = vertical_ ? Eigen::Vector3d::UnitZ() : Eigen::Vector3d::UnitY();
     findExtents();
@@ -89,6 +90,7 @@ class Builder {
 
   const MachineDescription& machine_;
   bool vertical_;
+  double lowest_mm_;
   Layout layout_;
   MachineBodies result_;
   std::array<Extent, 3> travel_{Extent{0, 300}, Extent{0, 200}, Extent{0, 200}};
@@ -118,6 +120,7 @@ void Builder::findExtents() {
       extent.high = std::max(extent.high, p[i]);
     }
   }
+  table_height_ = std::min(table_height_, lowest_mm_);
   size_ = std::max({travel_[0].length(), travel_[1].length(), travel_[2].length(), 1.0});
   slab_ = 0.055 * size_;
   const double margin = 0.06 * size_;
@@ -267,8 +270,8 @@ void Builder::addMotion(const Eigen::Vector3d& from, const Eigen::Vector3d& to, 
 
 }  // namespace
 
-MachineBodies machineBodies(const MachineDescription& machine) {
-  return Builder(machine).build();
+MachineBodies machineBodies(const MachineDescription& machine, double lowest_mm) {
+  return Builder(machine, lowest_mm).build();
 }
 
 }  // namespace spindrift::gui

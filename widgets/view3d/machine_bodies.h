@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 #include <QString>
+#include <limits>
 #include <vector>
 
 #include "core/machine/machine_description.h"
@@ -39,6 +40,8 @@ struct MachineBodies {
   Eigen::Vector3d table_high_mm = Eigen::Vector3d::Zero();
 };
 
-[[nodiscard]] MachineBodies machineBodies(const MachineDescription& machine);
+/// `lowest_mm`: the lowest place that was measured, along the vertical; what is measured lies on the table or above it.
+[[nodiscard]] MachineBodies machineBodies(const MachineDescription& machine,
+                                          double lowest_mm = std::numeric_limits<double>::infinity());
 
 }  // namespace spindrift::gui

@@ -45,12 +45,32 @@ std::vector<std::size_t> byImportance(const std::vector<Mark>& marks, const Poin
   return order;
 }
 
+QPointF nearestIn(const QRectF& box, const QPointF& to) {
+  return {std::clamp(to.x(), box.left(), box.right()), std::clamp(to.y(), box.top(), box.bottom())};
+}
+
+double length(const QPointF& d) {
+  return std::hypot(d.x(), d.y());
+}
+
+/// From a point to the line between two others.
+double distanceToLine(const QPointF& point, const QPointF& from, const QPointF& to) {
+  const QPointF d = to - from;
+  const double square = QPointF::dotProduct(d, d);
+  const double part = square > 0.0 ? std::clamp(QPointF::dotProduct(point - from, d) / square, 0.0, 1.0) : 0.0;
+  return length(point - from - part * d);
+}
+
 class LabelPlaces {
  public:
-  LabelPlaces(const QSizeF& size, std::vector<QRectF> taken) : size_(size), taken_(std::move(taken)) {}
+  LabelPlaces(const QSizeF& size, const std::vector<Mark>& marks, std::vector<QRectF> taken)
+      : size_(size), marks_(&marks), taken_(std::move(taken)) {
+    for (const Mark& mark : marks) taken_.emplace_back(mark.at.x() - 7, mark.at.y() - 7, 14, 14);
+  }
 
-  /// The first of a few places around the mark that is free and inside the picture, near ones first.
-  [[nodiscard]] std::optional<PlacedLabel> find(const Mark& mark, const QSizeF& box) const {
+  /// The first of a few places around the mark that is free and inside the picture, near ones first. `clear`: and of no
+  /// other mark.
+  [[nodiscard]] std::optional<PlacedLabel> find(const Mark& mark, const QSizeF& box, bool clear) const {
     for (const double distance : {near_px, far_px}) {
       const double w = box.width();
       const double h = box.height();
@@ -62,7 +82,8 @@ class LabelPlaces {
                                           QPointF(distance, -h / 2),  QPointF(-distance - w, -h / 2)};
       for (const QPointF& place : places) {
         const QRectF candidate(mark.at + place, box);
-        if (free(candidate)) return PlacedLabel{mark.point, mark.at, candidate, true, distance == far_px};
+        if (free(candidate) && (!clear || belongsTo(mark, candidate)))
+          return PlacedLabel{mark.point, mark.at, candidate, true, distance > near_px};
       }
     }
     return std::nullopt;
@@ -82,7 +103,18 @@ class LabelPlaces {
     return picture.contains(box) &&
            std::none_of(taken_.begin(), taken_.end(), [&](const QRectF& r) { return r.intersects(box); });
   }
+  /// No other mark is nearer to it, none lies on the way to it.
+  [[nodiscard]] bool belongsTo(const Mark& own, const QRectF& box) const {
+    constexpr double same_place_px = 2.0;
+    const QPointF end = nearestIn(box, own.at);
+    return std::all_of(marks_->begin(), marks_->end(), [&](const Mark& other) {
+      if (length(other.at - own.at) < same_place_px) return true;
+      return length(nearestIn(box, other.at) - other.at) >= length(end - own.at) - same_place_px &&
+             distanceToLine(other.at, own.at, end) > mark_radius_px;
+    });
+  }
   QSizeF size_;
+  const std::vector<Mark>* marks_;
   std::vector<QRectF> taken_;
 };
 
@@ -129,12 +161,10 @@ void paintLabel(QPainter& painter, const PlacedLabel& label, const LabelFonts& f
   const ViewPoint& point = *label.point;
   if (label.leader) {
     const QPointF& at = label.mark;
-    const QPointF end(std::clamp(at.x(), label.box.left(), label.box.right()),
-                      std::clamp(at.y(), label.box.top(), label.box.bottom()));
+    const QPointF end = nearestIn(label.box, at);
     const QPointF d = end - at;
-    const double length = std::hypot(d.x(), d.y());
     painter.setPen(QPen(t.text_secondary, 1));
-    if (length > mark_radius_px) painter.drawLine(at + d * (mark_radius_px / length), end);
+    if (length(d) > mark_radius_px) painter.drawLine(at + d * (mark_radius_px / length(d)), end);
   }
   QColor back = t.surface;
   back.setAlphaF(0.9F);
@@ -164,19 +194,19 @@ std::vector<Mark> marksOf(const Camera& camera, const QSizeF& size, const std::v
 std::vector<PlacedLabel> placeLabels(const Camera& camera, const QSizeF& size, const std::vector<ViewPoint>& points,
                                      const PointEmphasis& emphasis) {
   const std::vector<Mark> marks = marksOf(camera, size, points);
-  std::vector<QRectF> taken = emphasis.keep_out;
-  for (const Mark& mark : marks) taken.emplace_back(mark.at.x() - 7, mark.at.y() - 7, 14, 14);
   const LabelFonts fonts;
-  LabelPlaces places(size, std::move(taken));
+  LabelPlaces places(size, marks, emphasis.keep_out);
   std::vector<PlacedLabel> labels;
   for (const std::size_t i : byImportance(marks, emphasis)) {
     const ViewPoint& point = *marks[i].point;
     if (point.label.isEmpty() && point.value_text.isEmpty()) continue;
-    auto label = places.find(marks[i], fonts.size(point, true));
+    auto label = places.find(marks[i], fonts.size(point, true), true);
     const bool emphasised = sameId(point.id, emphasis.selected) || sameId(point.id, emphasis.hovered);
     if (!label && emphasised) label = places.force(marks[i], fonts.size(point, true));
-    if (!label && !point.value_text.isEmpty() && !point.label.isEmpty()) {
-      label = places.find(marks[i], fonts.size(point, false));
+    // A value that may be read as that of another point is left out, at last also that the name cannot be.
+    for (const bool clear : {true, false}) {
+      if (label || point.value_text.isEmpty() || point.label.isEmpty()) break;
+      label = places.find(marks[i], fonts.size(point, false), clear);
       if (label) label->with_value = false;
     }
     if (!label) continue;

@@ -89,6 +89,9 @@ struct Scene::Impl {
   vtkNew<vtkTexture> texture;
   vtkNew<vtkImageData> texture_image;
   std::optional<std::pair<Eigen::Vector3d, Eigen::Vector3d>> field_bounds;
+  Eigen::Vector3d field_normal = Eigen::Vector3d::Zero();  ///< zero: there is no field
+  double over_field_mm = 0.0;                              ///< along it, of what is to be seen on the field
+  double field_plane_mm = 0.0;                             ///< of the places that the field is of
   CloudLayer cloud{renderer};
   ArrowLayer arrows{renderer};
   SurfaceLayer surface_plot{renderer};
@@ -100,6 +103,16 @@ struct Scene::Impl {
   void setPlane(vtkMapper* mapper) {
     mapper->RemoveAllClippingPlanes();
     if (clipped) mapper->AddClippingPlane(clip);
+  }
+
+  /// Arrows begin on the field. Who looks at it as at a map sees them whole, also those that go down from it.
+  void raiseArrows(const Camera& camera) {
+    double by_mm = over_field_mm;
+    if (std::abs(camera.forward().dot(field_normal)) > 0.99) {
+      const double lowest = arrows.lowest_mm(field_normal);
+      if (std::isfinite(lowest)) by_mm = std::max(by_mm, field_plane_mm + over_field_mm - lowest);
+    }
+    arrows.raise(by_mm * field_normal);
   }
 
   void applyClip() {
@@ -309,7 +322,7 @@ void Scene::setField(const Field* field, const FieldStyle& style, const ColourSc
     piece->actor->VisibilityOff();
   }
   s.field_bounds.reset();
-  s.arrows.raise(Eigen::Vector3d::Zero());
+  s.field_normal.setZero();
   if (field == nullptr || field->value.empty()) return;
   const FieldGrid& grid = field->grid;
   const bool relief = style.relief_exaggeration > 0;
@@ -406,7 +419,9 @@ void Scene::setField(const Field* field, const FieldStyle& style, const ColourSc
       high = std::max(high, height(v));
     }
   }
-  s.arrows.raise(grid.place_mm(0, 0, high + lift) - grid.place_mm(0, 0, 0));
+  s.field_normal = Eigen::Vector3d::Unit(grid.normal_axis);
+  s.over_field_mm = high + lift;
+  s.field_plane_mm = grid.z_mm;
   s.field_bounds = {grid.place_mm(grid.x_from_mm, grid.y_from_mm, low),
                     grid.place_mm(grid.x_to_mm, grid.y_to_mm, high)};
 }
@@ -479,6 +494,7 @@ QImage Scene::draw(const Camera& camera, const QSize& pixels, double ratio, bool
   s.zero_line.actor->GetProperty()->SetLineWidth(static_cast<float>(1.6 * ratio));
   s.significance_lines.actor->GetProperty()->SetLineWidth(static_cast<float>(2 * ratio));
   s.surface_plot.setLineWidth(ratio);
+  s.raiseArrows(camera);
   s.arrows.place(2 * camera.half_height_mm * ratio / pixels.height(), 2 * ratio);
   s.cloud.showSome(camera, QSizeF(pixels) / ratio, ratio);
   s.window->SetMultiSamples(smooth ? samples_at_rest : 0);

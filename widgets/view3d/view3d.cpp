@@ -97,6 +97,7 @@ void View3D::clear() {
 }
 
 void View3D::setMachine(const MachineDescription& machine) {
+  machine_ = machine;
   bodies_ = machineBodies(machine);
   camera_.vertical = bodies_->vertical;
   if (scene_ != nullptr) scene_->setBodies(*bodies_);
@@ -122,9 +123,20 @@ void View3D::setToolSideVisible(bool visible) {
 
 void View3D::setPoints(std::vector<ViewPoint> points) {
   points_ = std::move(points);
+  placeTable();
   extentChanged();
   tools_->refresh();
   update();
+}
+
+void View3D::placeTable() {
+  if (!bodies_) return;
+  double lowest_mm = bodies_->vertical.dot(bodies_->table_low_mm);
+  for (const ViewPoint& point : points_) lowest_mm = std::min(lowest_mm, bodies_->vertical.dot(point.position_mm));
+  if (lowest_mm > bodies_->vertical.dot(bodies_->table_low_mm) - 1e-6) return;
+  bodies_ = machineBodies(machine_, lowest_mm);
+  if (scene_ != nullptr) scene_->setBodies(*bodies_);
+  changed();
 }
 
 void View3D::setArrows(std::vector<ViewArrow> arrows, double exaggeration) {
@@ -147,6 +159,10 @@ void View3D::setField(std::shared_ptr<const Field> field, const FieldStyle& styl
   if (scene_ != nullptr) {
     scene_->setField(scale_ ? field_.get() : nullptr, field_style_, scale_.value_or(ColourScale{}));
   }
+  const bool moved = fitted_ && !(camera_ == automatic_);
+  Camera facing = camera_;
+  facing.look(mapView());
+  if (field_ != nullptr && at_map_ && !moved && !(facing == camera_)) lookAtMap();
   changed();
 }
 
@@ -220,7 +236,20 @@ void View3D::setCamera(const Camera& camera) {
   changed();
 }
 
+void View3D::lookAtMap() {
+  resetCamera(mapView());
+  at_map_ = true;
+}
+
+StandardView View3D::mapView() const {
+  if (field_ == nullptr) return StandardView::Top;
+  const int normal = field_->grid.normal_axis;
+  if (std::abs(camera_.vertical[normal]) > 0.5) return StandardView::Top;
+  return normal == 0 ? StandardView::Right : StandardView::Front;
+}
+
 void View3D::resetCamera(StandardView view) {
+  at_map_ = false;
   camera_.look(view);
   fitted_ = false;
   cameraMoved();

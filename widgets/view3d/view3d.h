@@ -154,6 +154,11 @@ class View3D : public QWidget {
   [[nodiscard]] const Camera& camera() const { return camera_; }
   void setCamera(const Camera& camera);
   void resetCamera(StandardView view = StandardView::Isometric);
+  /// Looks along the normal of the heat map, from above where there is none; also at maps that come later, until
+  /// somebody moves the camera.
+  void lookAtMap();
+  /// From where the heat map is seen as a map.
+  [[nodiscard]] StandardView mapView() const;
   void setOrthographic(bool on);
   /// Shows everything from where the camera looks.
   void fit();
@@ -243,6 +248,7 @@ class View3D : public QWidget {
   void paintMeasurement(QPainter& painter, const QSizeF& size) const;
   /// What is to be seen has another extent: a view that nobody has turned is fitted again.
   void extentChanged();
+  void placeTable();
   [[nodiscard]] QMarginsF marginsFor(const QSize& size, const Arrangement& arrangement) const;
   [[nodiscard]] Camera cameraFor(const QSize& size, const Arrangement& arrangement) const;
   /// What the notes at the top left say: caption, exaggeration, what faded and striped mean.
@@ -265,7 +271,8 @@ class View3D : public QWidget {
   void ensureScene();
 
   std::unique_ptr<Scene> scene_;  ///< made when it is first painted
-  std::optional<MachineBodies> bodies_;
+  MachineDescription machine_;
+  std::optional<MachineBodies> bodies_;  ///< of it, on a table under all points
   bool machine_visible_ = true;
   bool tool_side_visible_ = true;
   ViewCloud cloud_;
@@ -285,6 +292,7 @@ class View3D : public QWidget {
   QString failure_;
   QImage frame_;
   bool dirty_ = true;
+  bool at_map_ = false;  ///< looks at the map, whatever it will be
   bool fitted_ = false;  ///< the camera has been fitted to the content
   Camera automatic_;     ///< as it was fitted: while nobody turns it, it is fitted again when the size changes
   bool following_ = false;

@@ -57,6 +57,19 @@ TEST(Review, ModelAndResidualFollowTheNineParameters) {
   EXPECT_FALSE(one.message.empty());
 }
 
+TEST(Review, AStateThatIsHeldOutHasAMapBetweenItsPointsAndSaysSo) {
+  ObservationSet all = states(9);
+  ReviewRequest request{"M2", ReviewQuantity::Measured, Component::EX};
+  request.heat_map = true;
+  ASSERT_TRUE(reviewOf(all, table(), request).field.has_value());
+  EXPECT_TRUE(reviewOf(all, table(), request).message.empty());
+  for (Observation& o : all.rows)
+    if (o.state == "M2") o.use = ObservationUse::Holdout;
+  const ReviewPicture m2 = reviewOf(all, table(), request);
+  ASSERT_TRUE(m2.field.has_value());
+  EXPECT_EQ(m2.message, "Held out: dashed points took no part in any fit.");
+}
+
 TEST(Review, DifferenceIsTheSecondMinusTheFirst) {
   const ObservationSet all = states(9);
   const ReviewPicture a = reviewOf(all, table(), {"M1", ReviewQuantity::NineParameters, Component::EX});

@@ -339,6 +339,39 @@ TEST(PointLabels, CoverNothingAndTheImportantOnesAreThere) {
   }
 }
 
+// Four points in a column, each with a value: a label next to another point would be read as that one's.
+TEST(PointLabels, StandNearestToTheirOwnPoint) {
+  for (const double apart_mm : {9.0, 12.0, 16.0}) {
+    const QSizeF size(240, 240);
+    std::vector<ViewPoint> points;
+    for (int i = 0; i < 4; ++i) {
+      ViewPoint p;
+      p.id = p.label = QStringLiteral("A%1").arg(i + 1);
+      p.position_mm = {50.0, 26.0 + apart_mm * i, 0.0};
+      p.value = 7.8 - 0.5 * i;
+      p.value_text = QStringLiteral("%1 ± 0.017 µm").arg(7.845 - 0.5 * i);
+      points.push_back(p);
+    }
+    const Camera camera = fromAbove(size);
+    const auto labels = placeLabels(camera, size, points, {});
+    EXPECT_EQ(labels.size(), points.size()) << apart_mm;
+    EXPECT_GE(std::count_if(labels.begin(), labels.end(), [](const PlacedLabel& l) { return l.with_value; }), 2)
+        << apart_mm;
+    for (const PlacedLabel& label : labels) {
+      if (!label.with_value) continue;
+      const auto distance = [&](const QPointF& mark) {
+        return std::hypot(std::max({label.box.left() - mark.x(), 0.0, mark.x() - label.box.right()}),
+                          std::max({label.box.top() - mark.y(), 0.0, mark.y() - label.box.bottom()}));
+      };
+      for (const ViewPoint& p : points) {
+        const QPointF mark = *camera.project(p.position_mm, size);
+        EXPECT_LE(distance(label.mark), distance(mark) + 2.0)
+            << apart_mm << ": the label of " << label.point->id.toStdString() << " stands at " << p.id.toStdString();
+      }
+    }
+  }
+}
+
 TEST(PointLabels, AllAreShownWithTheirValuesWhereThereIsRoom) {
   const QSizeF large(1400, 1200);
   const auto points = crowd(12);

@@ -387,6 +387,57 @@ TEST_F(ViewToolsTest, ArrowsOnAHeatMapAreSeen) {
   for (int dy = -3; dy <= 3; ++dy)
     changed += with.pixel(middle + QPoint(0, dy)) != without.pixel(middle + QPoint(0, dy)) ? 1 : 0;
   EXPECT_GE(changed, 1);
+  // One that goes down as well, below the map: from above it is seen whole.
+  view_.setArrows({{{60, 40, 0}, {20, 0, -15}, Tone::Good}}, 3000.0);
+  view_.lookAtMap();
+  const QImage down = view_.grab().toImage();
+  view_.setArrows({}, 3000.0);
+  const QImage none = view_.grab().toImage();
+  for (const double x : {75.0, 90.0, 105.0}) {
+    const QPoint at = view_.pixelOf({x, 40, 0})->toPoint();
+    int seen = 0;
+    for (int dy = -3; dy <= 3; ++dy) seen += down.pixel(at + QPoint(0, dy)) != none.pixel(at + QPoint(0, dy)) ? 1 : 0;
+    EXPECT_GE(seen, 1) << x;
+  }
+}
+
+// Holes are touched some millimetres below the face of their bar: a table above them would hide their map.
+TEST_F(ViewToolsTest, TheTableLiesUnderAllThatWasMeasured) {
+  Field under;
+  under.grid = {0, 300, 0, 200, -3, 2, 2};
+  under.value = {5, 5, 5, 5};
+  under.sigma = {0.1, 0.1, 0.1, 0.1};
+  view_.setPoints({});
+  view_.setMachine(mill());
+  view_.lookAtMap();
+  view_.setColourScale(ColourScale::symmetric(5, QStringLiteral("EX"), QStringLiteral("um")));
+  view_.setField(std::make_shared<const Field>(under), {});
+  ViewPoint point;
+  point.id = QStringLiteral("H1");
+  point.position_mm = {20, 20, -3};
+  view_.setPoints({point});
+  const QImage picture = view_.grab().toImage();
+  const QColor middle = picture.pixelColor(view_.pixelOf({150, 100, -3})->toPoint());
+  EXPECT_GT(middle.red(), middle.blue() + 60) << middle.name().toStdString();
+}
+
+TEST_F(ViewToolsTest, AMapIsFacedWhicheverWayItStands) {
+  Field standing;
+  standing.grid = {0, 300, 0, 200, 50, 2, 2};
+  standing.grid.normal_axis = 1;
+  standing.value = {1, 2, 3, 4};
+  standing.sigma = {0.1, 0.1, 0.1, 0.1};
+  view_.lookAtMap();
+  EXPECT_NEAR(std::abs(view_.camera().forward().z()), 1.0, 1e-9);
+  (void)view_.grab();
+  view_.setField(std::make_shared<const Field>(standing), {});
+  EXPECT_NEAR(std::abs(view_.camera().forward().y()), 1.0, 1e-9) << "it came later";
+  (void)view_.grab();
+  Camera moved = view_.camera();
+  moved.turn(0.3, 0.2);
+  view_.setCamera(moved);
+  view_.setField(nullptr, {});
+  EXPECT_EQ(view_.camera(), moved) << "whoever has moved the camera keeps it";
 }
 
 // Text is painted with its whole box inside: a picture with a frame around it stays clean.

@@ -51,6 +51,7 @@ std::span<const char* const> spindrift::gui::core_formats::workflows() noexcept 
     QT_TRANSLATE_NOOP("core", "Fanuc pitch error data of {}"),
     QT_TRANSLATE_NOOP("core", "HAL has no {}."),
     QT_TRANSLATE_NOOP("core", "Heidenhain compensation values over {}"),
+    QT_TRANSLATE_NOOP("core", "Held out: dashed points took no part in any fit."),
     QT_TRANSLATE_NOOP("core", "ISO 230-1 component errors of {}"),
     QT_TRANSLATE_NOOP("core", "It belongs to: {}."),
     QT_TRANSLATE_NOOP("core", "It cannot be decided whether the goal of {:g} {} is met: {}, and its expanded uncertainty (k = 2) reaches across the goal; measure more often or more precisely."),

@@ -156,13 +156,13 @@ NineParameterPage::NineParameterPage(PageContext page_context, QWidget* parent)
   connect(arrows_, &QCheckBox::toggled, this, &NineParameterPage::showField);
   connect(higher_, &QCheckBox::toggled, this, &NineParameterPage::showField);
   connect(same_scale_, &QCheckBox::toggled, this, &NineParameterPage::showField);
-  connect(relief_, &QCheckBox::toggled, this, [this](bool on) {
-    view_->resetCamera(on || machine_->isChecked() ? StandardView::Isometric : StandardView::Top);
+  connect(relief_, &QCheckBox::toggled, this, [this] {
+    lookAgain();
     showField();
   });
   connect(machine_, &QCheckBox::toggled, this, [this](bool on) {
     view_->setMachineVisible(on);
-    view_->resetCamera(on || relief_->isChecked() ? StandardView::Isometric : StandardView::Top);
+    lookAgain();
   });
   connect(view_, &View3D::pointPicked, this, [this, point_table](const QString& id) {
     const int row = points_->rowOf(id);
@@ -170,7 +170,12 @@ NineParameterPage::NineParameterPage(PageContext page_context, QWidget* parent)
   });
   connect(point_table->selectionModel(), &QItemSelectionModel::currentRowChanged, this,
           [this](const QModelIndex& now) { view_->setSelected(points_->idAt(now.row())); });
-  view_->resetCamera(StandardView::Top);
+  view_->lookAtMap();
+}
+
+void NineParameterPage::lookAgain() {
+  if (relief_->isChecked() || machine_->isChecked()) return view_->resetCamera(StandardView::Isometric);
+  view_->lookAtMap();
 }
 
 NineParameterOptions NineParameterPage::options() const {

@@ -45,6 +45,7 @@ class NineParameterPage : public Page {
   [[nodiscard]] const Field* field() const { return field_.get(); }
 
  private:
+  void lookAgain();
   void fillPoints();
   void showPoints();
   void showFit();

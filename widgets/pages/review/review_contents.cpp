@@ -113,8 +113,7 @@ void ReviewPage::showAll() {
                 if (!(*answers)[i].problem.isEmpty())
                   panes_[i]->showMessage(tr("Nothing to show"), (*answers)[i].problem);
               // Only now the panes have the sizes that they keep.
-              if (std::exchange(refit_, false))
-                panes_[0]->view()->resetCamera(machine_->isChecked() ? StandardView::Isometric : StandardView::Top);
+              if (std::exchange(refit_, false)) lookAgain();
               showTable();
               showSection();
             };

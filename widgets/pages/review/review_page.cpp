@@ -121,9 +121,9 @@ ReviewPage::ReviewPage(PageContext page_context, QWidget* parent)
   connect(component_, &Segments::chosen, this, &ReviewPage::showAll);
   connect(heat_maps_, &QCheckBox::toggled, this, &ReviewPage::showAll);
   connect(arrows_, &QCheckBox::toggled, this, &ReviewPage::showAll);
-  connect(machine_, &QCheckBox::toggled, this, [this](bool on) {
+  connect(machine_, &QCheckBox::toggled, this, [this] {
     showAll();
-    panes_[0]->view()->resetCamera(on ? StandardView::Isometric : StandardView::Top);
+    lookAgain();
   });
   connect(slider_, &QSlider::valueChanged, this, &ReviewPage::showAll);
   connect(play_, &QPushButton::toggled, this, &ReviewPage::play);
@@ -147,7 +147,17 @@ void ReviewPage::layOutPanes() {
     if (i < shown) grid_->addWidget(pane, i / 2, i % 2, 1, shown == 3 && i == 2 ? 2 : 1);
   }
   // Other sizes: all views are fitted anew, together.
-  panes_[0]->view()->resetCamera(machine_->isChecked() ? StandardView::Isometric : StandardView::Top);
+  lookAgain();
+}
+
+void ReviewPage::lookAgain() {
+  if (machine_->isChecked()) return panes_[0]->view()->resetCamera(StandardView::Isometric);
+  // All follow the first: it looks at the map of whoever has one.
+  const auto with_map = std::find_if(panes_.begin(), panes_.end(), [](const ReviewPane* pane) {
+    return !pane->isHidden() && !pane->isScan() && pane->picture().field.has_value();
+  });
+  if (with_map == panes_.end()) return panes_[0]->view()->lookAtMap();
+  panes_[0]->view()->resetCamera((*with_map)->view()->mapView());
 }
 
 void ReviewPage::setPanes(int count) {

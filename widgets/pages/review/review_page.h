@@ -46,6 +46,7 @@ class ReviewPage : public Page {
 
  private:
   void layOutPanes();
+  void lookAgain();
   void fillSlider();
   [[nodiscard]] std::string stateAtSlider() const;
   void showAll();

@@ -94,7 +94,7 @@ ReviewPane::ReviewPane(int number, ReviewSources& sources, QWidget* parent)
   value_->setAccessibleName(tr("Value under the cursor in pane %1").arg(number));
   value_->setMinimumHeight(20);
   column->addWidget(value_);
-  view_->resetCamera(StandardView::Top);
+  view_->lookAtMap();
   connect(scan_view_, &View3D::hovered, this, &ReviewPane::setValue);
 
   connect(campaign_, &QComboBox::currentIndexChanged, this, [this] {

@@ -34,7 +34,7 @@ VerifyMaps::VerifyMaps(QWidget* parent) : QWidget(parent) {
     view = new View3D;
     view->setMachineVisible(false);
     view->setEmptyText(tr("The table will appear here"), tr("Compare before and after."));
-    view->resetCamera(StandardView::Top);
+    view->lookAtMap();
     column->addWidget(view, 1);
   }
   views_[0]->link(views_[1]);
