@@ -494,16 +494,8 @@
 <context>
     <name>VerifyPage</name>
     <message>
-        <source>After, range over the points</source>
-        <translation>Nachher, Spanne über die Punkte</translation>
-    </message>
-    <message>
         <source>After, ± 2 uncertainties</source>
         <translation>Nachher, ± 2 Unsicherheiten</translation>
-    </message>
-    <message>
-        <source>Before, range over the points</source>
-        <translation>Vorher, Spanne über die Punkte</translation>
     </message>
     <message>
         <source>Before, ± 2 uncertainties</source>
@@ -532,6 +524,14 @@
     <message>
         <source>µrad</source>
         <translation>µrad</translation>
+    </message>
+    <message>
+        <source>After, range over the points with ± 2 u</source>
+        <translation>Nachher, Spanne über die Punkte mit ± 2 u</translation>
+    </message>
+    <message>
+        <source>Before, range over the points with ± 2 u</source>
+        <translation>Vorher, Spanne über die Punkte mit ± 2 u</translation>
     </message>
 </context>
 <context>
@@ -20631,10 +20631,6 @@ einsatz</translation>
         <translation> Und %1 weitere.</translation>
     </message>
     <message>
-        <source>Deviations found: %1, no warnings.</source>
-        <translation>Gefundene Abweichungen: %1, keine Warnungen.</translation>
-    </message>
-    <message>
         <source>This page shows %1. The other artefacts are evaluated too: their deviations stand in the observations and in the report.</source>
         <translation>Diese Seite zeigt %1. Die anderen Prüfkörper werden ebenfalls ausgewertet: ihre Abweichungen stehen in den Beobachtungen und im Bericht.</translation>
     </message>
@@ -20845,6 +20841,10 @@ einsatz</translation>
     <message>
         <source>The closed forms take every translation for a rotation of the head: here they are off by up to %1 µrad. They are shown for comparison and not used.</source>
         <translation>Die geschlossenen Lösungen halten jede Verschiebung für eine Drehung des Kopfes: Hier weichen sie bis zu %1 µrad ab. Sie stehen zum Vergleich da und werden nicht verwendet.</translation>
+    </message>
+    <message>
+        <source>Deviations found: %1.</source>
+        <translation>Abweichungen ermittelt: %1.</translation>
     </message>
 </context>
 <context>

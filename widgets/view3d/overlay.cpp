@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include "widgets/theme/fonts.h"
 #include "widgets/theme/numbers.h"
@@ -252,9 +253,9 @@ double gridSpacing_mm(const MachineBodies& bodies) {
 std::vector<OverlayText> tableScale(const Camera& camera, const QSizeF& size, const MachineBodies& bodies) {
   std::vector<OverlayText> texts;
   const QFontMetricsF metrics(textFont(table_scale_px));
-  const auto add = [&](const QPointF& baseline, const QString& text) {
+  const auto textAt = [&](const QPointF& baseline, const QString& text) {
     const QRectF box(baseline.x(), baseline.y() - metrics.ascent(), metrics.horizontalAdvance(text), metrics.height());
-    texts.push_back({baseline, text, box.adjusted(-2, 0, 2, 0)});  // with its halo
+    return OverlayText{baseline, text, box.adjusted(-2, 0, 2, 0)};  // with its halo
   };
   const double spacing = gridSpacing_mm(bodies);
   const ShownUnit unit = shownUnit(QStringLiteral("mm"));
@@ -279,8 +280,8 @@ std::vector<OverlayText> tableScale(const Camera& camera, const QSizeF& size, co
     const bool by_height = (i == 0 || up == 1) && std::abs(p_low->y() - p_high->y()) > 1.0;
     const bool use_low = by_height ? p_low->y() >= p_high->y() : p_low->x() <= p_high->x();
     const double fixed = use_low ? low[other] : high[other];
-    QRectF last;
-    for (double v = std::ceil(low[i] / spacing) * spacing; v <= high[i] + 1e-9; v += spacing) {
+    // The number of one place along the axis; empty where it cannot be seen.
+    const auto numberAt = [&](double v, bool with_unit) -> std::optional<OverlayText> {
       Eigen::Vector3d p = low;
       p[up] = low[up];
       p[i] = v;
@@ -289,21 +290,31 @@ std::vector<OverlayText> tableScale(const Camera& camera, const QSizeF& size, co
       inner[other] = 0.5 * (low[other] + high[other]);
       const auto at = camera.project(p, size);
       const auto inward = camera.project(inner, size);
-      if (!at || !inward) continue;
+      if (!at || !inward) return std::nullopt;
       QPointF out = *at - *inward;
       const double norm = std::hypot(out.x(), out.y());
-      if (norm < 4) continue;
+      if (norm < 4) return std::nullopt;
       out /= norm;
       const QString text =
           decimalText(std::abs(v) < 1e-9 ? 0.0 : unit.shown(v), 'f', unit.factor * spacing < 0.999 ? 1 : 0);
       const double w = metrics.horizontalAdvance(text);
       const QPointF anchor = *at + out * 9;
       const QPointF baseline(anchor.x() - w / 2 + out.x() * w / 2, anchor.y() + metrics.ascent() / 2 - 1 + out.y() * 4);
-      const QRectF box(baseline.x(), baseline.y() - metrics.ascent(), w, metrics.height());
-      if (box.adjusted(-6, 0, 6, 0).intersects(last)) continue;
-      last = box;
-      add(baseline, i == unit_axis && v + spacing > high[i] + 1e-9 ? text + QLatin1Char(' ') + unit.name : text);
+      return textAt(baseline, with_unit ? text + QLatin1Char(' ') + unit.name : text);
+    };
+    // As many of them as stand apart, at even distances; the last one has the unit.
+    std::vector<OverlayText> numbers;
+    for (const int every : {1, 2, 5, 10, 20, 50}) {
+      const double step = every * spacing;
+      numbers.clear();
+      for (double v = std::ceil(low[i] / step) * step; v <= high[i] + 1e-9; v += step)
+        if (auto number = numberAt(v, i == unit_axis && v + step > high[i] + 1e-9)) numbers.push_back(*number);
+      const auto touch = [](const OverlayText& one, const OverlayText& next) {
+        return one.box.adjusted(-4, 0, 4, 0).intersects(next.box);
+      };
+      if (std::adjacent_find(numbers.begin(), numbers.end(), touch) == numbers.end()) break;
     }
+    texts.insert(texts.end(), numbers.begin(), numbers.end());
   }
   return texts;
 }

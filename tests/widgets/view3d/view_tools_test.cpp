@@ -401,6 +401,30 @@ TEST_F(ViewToolsTest, ArrowsOnAHeatMapAreSeen) {
   }
 }
 
+// However few numbers have room, they are at even distances and the last one has the unit.
+TEST(Overlay, NumbersAlongTheTableAreEvenAndHaveTheirUnit) {
+  const MachineBodies bodies = machineBodies(mill());
+  for (const double width : {90.0, 130.0, 180.0, 260.0, 420.0}) {
+    const QSizeF size(width, width);
+    Camera camera;
+    camera.look(StandardView::Top);
+    camera.fit(bodies.table_low_mm, bodies.table_high_mm, size);
+    std::vector<double> along_x;
+    bool unit = false;
+    const auto texts = tableScale(camera, size, bodies);
+    for (const OverlayText& text : texts) {
+      const auto bottom = camera.project(bodies.table_low_mm, size);
+      if (text.box.center().y() < bottom->y()) continue;
+      unit = unit || text.text.endsWith(QStringLiteral(" mm"));
+      along_x.push_back(text.text.section(QLatin1Char(' '), 0, 0).toDouble());
+    }
+    ASSERT_GE(along_x.size(), 1U) << width;
+    EXPECT_TRUE(unit) << width;
+    for (std::size_t k = 2; k < along_x.size(); ++k)
+      EXPECT_NEAR(along_x[k] - along_x[k - 1], along_x[1] - along_x[0], 1e-9) << width;
+  }
+}
+
 // Holes are touched some millimetres below the face of their bar: a table above them would hide their map.
 TEST_F(ViewToolsTest, TheTableLiesUnderAllThatWasMeasured) {
   Field under;

@@ -164,7 +164,7 @@ void TouchEvaluationPage::refresh() {
                     sentences.mid(0, 2).join(QLatin1Char(' ')) +
                         (sentences.size() > 2 ? tr(" And %1 more.").arg(sentences.size() - 2) : QString()));
   } else {
-    callout()->show(Tone::Good, tr("Deviations found: %1, no warnings.").arg(stored->observations.rows.size()));
+    callout()->show(Tone::Good, tr("Deviations found: %1.").arg(stored->observations.rows.size()));
   }
   if (!beside.reading) {
     const auto given = beside.as<EvaluationDetail>();

@@ -59,7 +59,8 @@ std::vector<Series> ranges(const std::vector<const VerifyPoint*>& values) {
   std::vector<Series> all;
   for (const int side : {0, 1}) {
     Series s;
-    s.name = side == 0 ? verifyText("Before, range over the points") : verifyText("After, range over the points");
+    s.name = side == 0 ? verifyText("Before, range over the points with ± 2 u")
+                       : verifyText("After, range over the points with ± 2 u");
     s.style = SeriesStyle::Line;
     s.colour = colours[static_cast<std::size_t>(side)];
     s.sigma_factor = 1.0;
