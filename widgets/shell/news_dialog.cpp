@@ -8,6 +8,7 @@
 #include <QTextBrowser>
 #include <QVBoxLayout>
 
+#include "widgets/common/languages.h"
 #include "widgets/common/parts.h"
 #include "widgets/theme/fonts.h"
 
@@ -17,7 +18,9 @@ static void loadNews() {
 
 namespace spindrift::gui {
 
-QString newestNews(const QString& changelog) {
+QString newestNews(const QString& changelog, const QString& language) {
+  const QString title =
+      language == QLatin1String("de") ? QStringLiteral("### In Kürze") : QStringLiteral("### In short");
   QString news;
   bool in_version = false;
   bool in_part = false;
@@ -25,9 +28,8 @@ QString newestNews(const QString& changelog) {
     if (line.startsWith(QStringLiteral("## "))) {
       if (in_version) break;
       in_version = true;
-      news = line + QStringLiteral("\n\n");
     } else if (line.startsWith(QStringLiteral("### "))) {
-      in_part = in_version && line.contains(QStringLiteral("operators"));
+      in_part = in_version && line == title;
     } else if (in_part) {
       news += line + QLatin1Char('\n');
     }
@@ -47,7 +49,8 @@ NewsDialog::NewsDialog(QWidget* parent) : QDialog(parent) {
   text->setAccessibleName(tr("What's new"));
   text->document()->setDefaultFont(textFont(sizes::font_body));
   QFile file(QStringLiteral(":/help/changelog.md"));
-  if (file.open(QIODevice::ReadOnly)) text->setMarkdown(newestNews(QString::fromUtf8(file.readAll())));
+  if (file.open(QIODevice::ReadOnly))
+    text->setMarkdown(newestNews(QString::fromUtf8(file.readAll()), currentLanguage()));
   column->addWidget(text, 1);
   auto* line = new QHBoxLayout;
   line->addStretch();

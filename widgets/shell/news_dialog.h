@@ -7,9 +7,9 @@
 
 namespace spindrift::gui {
 
-/// The newest version in a changelog (Markdown, CHANGELOG.md): its heading and the part for operators and engineers;
-/// empty if there is none.
-[[nodiscard]] QString newestNews(const QString& changelog);
+/// What the newest version in a changelog (Markdown, CHANGELOG.md) has in short, in `language` ("en", "de"); empty if
+/// nothing.
+[[nodiscard]] QString newestNews(const QString& changelog, const QString& language);
 
 class NewsDialog : public QDialog {
   Q_OBJECT

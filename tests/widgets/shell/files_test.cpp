@@ -5,6 +5,7 @@
 #include <QAction>
 #include <QDialog>
 #include <QDropEvent>
+#include <QFile>
 #include <QMenu>
 #include <QMenuBar>
 #include <QMimeData>
@@ -185,9 +186,22 @@ TEST_F(FilesTest, WhatIsNewIsShownOnceAfterAnUpdate) {
   ASSERT_NE(action, nullptr);
   action->trigger();
   EXPECT_NE(shown(), nullptr);
-  EXPECT_EQ(newestNews(QStringLiteral("# Log\n\n## 2.0\n\n### For operators and engineers\n- new\n\n### For packagers\n"
-                                      "- no\n\n## 1.0\n\n### For operators and engineers\n- old\n")),
-            QStringLiteral("## 2.0\n\n- new"));
+  const QString log = QStringLiteral(
+      "# Log\n\n## 2.0\n\n### In short\n- new\n\n### In Kürze\n- neu\n\n### For packagers\n- no\n\n## 1.0\n\n### In "
+      "short\n- old\n");
+  EXPECT_EQ(newestNews(log, QStringLiteral("en")), QStringLiteral("- new"));
+  EXPECT_EQ(newestNews(log, QStringLiteral("de")), QStringLiteral("- neu"));
+  // What is shown can be read at a glance: no names of tests or files, no more than fits into the window.
+  QFile file(QStringLiteral(SPINDRIFT_SOURCE_DIR "/CHANGELOG.md"));
+  ASSERT_TRUE(file.open(QIODevice::ReadOnly));
+  const QString changelog = QString::fromUtf8(file.readAll());
+  for (const char* language : {"en", "de"}) {
+    const QString news = newestNews(changelog, QString::fromLatin1(language));
+    EXPECT_GE(news.count(QStringLiteral("\n- ")), 5) << language;
+    EXPECT_LE(news.count(QStringLiteral("\n- ")), 14) << language;
+    EXPECT_LT(news.size(), 2500) << language;
+    EXPECT_FALSE(news.contains(QLatin1Char('`'))) << language;
+  }
   EXPECT_NE(actionAt(*window_, {QStringLiteral("Edit"), QStringLiteral("Jobs and messages …")}), nullptr);
 }
 
