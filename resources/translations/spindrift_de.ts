@@ -420,10 +420,6 @@
         <translation>Ein leerer Ordner</translation>
     </message>
     <message>
-        <source>Browse…</source>
-        <translation>Durchsuchen…</translation>
-    </message>
-    <message>
         <source>CalculiX</source>
         <translation>CalculiX</translation>
     </message>
@@ -478,6 +474,10 @@
     <message>
         <source>table of sensitivities</source>
         <translation>Tabelle der Empfindlichkeiten</translation>
+    </message>
+    <message>
+        <source>Browse …</source>
+        <translation>Durchsuchen …</translation>
     </message>
 </context>
 <context>
@@ -582,7 +582,7 @@
     </message>
     <message>
         <source>(temperature of the bar not known: taken as that of the certificate)</source>
-        <translation>(Temperatur der Leiste nicht bekannt: als die des Zertifikats angenommen)</translation>
+        <translation>(Temperatur der Leiste nicht bekannt: als die des Kalibrierscheins angenommen)</translation>
     </message>
     <message>
         <source>(the first)</source>
@@ -794,7 +794,7 @@
     </message>
     <message>
         <source>A certificate uncertainty of {:g} µm is implausibly large; check the unit.</source>
-        <translation>Eine Zertifikatsunsicherheit von {:g} µm ist unplausibel groß; Einheit prüfen.</translation>
+        <translation>Eine Unsicherheit des Kalibrierscheins von {:g} µm ist unplausibel groß; Einheit prüfen.</translation>
     </message>
     <message>
         <source>A compensation that is not a number is not written.</source>
@@ -1714,7 +1714,7 @@
     </message>
     <message>
         <source>The first ball is the origin of the certificate; allowed: 0, 0, 0.</source>
-        <translation>Die erste Kugel ist der Ursprung des Zertifikats; zulässig: 0, 0, 0.</translation>
+        <translation>Die erste Kugel ist der Ursprung des Kalibrierscheins; zulässig: 0, 0, 0.</translation>
     </message>
     <message>
         <source>The fit of the pocket&apos;s rim did not settle.</source>
@@ -2146,7 +2146,7 @@
     </message>
     <message>
         <source>The uncertainty of the certificate</source>
-        <translation>Die Unsicherheit des Zertifikats</translation>
+        <translation>Die Unsicherheit des Kalibrierscheins</translation>
     </message>
     <message>
         <source>The uncertainty of the mounting must be positive (rad).</source>
@@ -3544,7 +3544,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>Distance {} differs from the certificate by {:.2f} mm: are balls swapped or is this another artefact?</source>
-        <translation>Abstand {} weicht um {:.2f} mm vom Zertifikat ab: sind Kugeln vertauscht, oder ist dies ein anderer Prüfkörper?</translation>
+        <translation>Abstand {} weicht um {:.2f} mm vom Kalibrierschein ab: sind Kugeln vertauscht, oder ist dies ein anderer Prüfkörper?</translation>
     </message>
     <message>
         <source>distances between features are 25.4 times too large: the machine file looks like inches; allowed: millimetres in both files.</source>
@@ -9054,7 +9054,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>largest deviation {} is {} at {}</source>
-        <translation>größte Abweichung {} beträgt {} bei {}</translation>
+        <translation>die größte Abweichung {} beträgt {} bei {}</translation>
     </message>
     <message>
         <source>rms of {} is {}</source>
@@ -9211,10 +9211,6 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>two</source>
         <translation>zwei</translation>
-    </message>
-    <message>
-        <source>What the model does not describe (X {:.2g} µm, Y {:.2g} µm, Z {:.2g} µm) is part of the uncertainty of every correction.</source>
-        <translation>Was das Modell nicht beschreibt (X {:.2g} µm, Y {:.2g} µm, Z {:.2g} µm), ist Teil der Unsicherheit jeder Korrektur.</translation>
     </message>
     <message>
         <source>{} has none of the {} {} images it needs in {}</source>
@@ -9446,7 +9442,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>The expansion coefficient of {} is not stated: its lengths against the certificate are not corrected for {:.1f} K.</source>
-        <translation>Der Ausdehnungskoeffizient von {} ist nicht angegeben: Seine Längen gegen das Zertifikat sind nicht um {:.1f} K korrigiert.</translation>
+        <translation>Der Ausdehnungskoeffizient von {} ist nicht angegeben: Seine Längen gegen den Kalibrierschein sind nicht um {:.1f} K korrigiert.</translation>
     </message>
     <message>
         <source>The log has no spindle speed: that the machine was at rest could not be checked.</source>
@@ -9694,7 +9690,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>{} and {} are collinear in the training and separate here: their effects cannot be distinguished from the training; vary one without the other there.</source>
-        <translation>{} und {} haben sich im Training gemeinsam bewegt und trennen sich hier: Welche davon was verursacht, sagt das Training nicht; lassen Sie dort einmal eine ohne die andere laufen.</translation>
+        <translation>{} und {} haben sich im Training gemeinsam bewegt und trennen sich hier: Welche davon was verursacht, sagt das Training nicht; dort einmal eine ohne die andere laufen lassen.</translation>
     </message>
     <message>
         <source>, {:g} {} given: {}</source>
@@ -9811,6 +9807,10 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>0, or a size of at least {:g}: µm/(m·K), where steel has 11.5, not 1/K</source>
         <translation>0, oder ein Betrag von mindestens {:g}: µm/(m·K), worin Stahl 11,5 hat, nicht 1/K</translation>
+    </message>
+    <message>
+        <source>What the model does not describe (X {:.1f} µm, Y {:.1f} µm, Z {:.1f} µm) is part of the uncertainty of every correction.</source>
+        <translation>Was das Modell nicht beschreibt (X {:.1f} µm, Y {:.1f} µm, Z {:.1f} µm), ist Teil der Unsicherheit jeder Korrektur.</translation>
     </message>
 </context>
 <context>
@@ -10045,7 +10045,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>Each capture is judged at once, while you stand at the machine. Take again what is marked; nothing that is there is altered.</source>
-        <translation>Jede Aufnahme wird sofort beurteilt, solange Sie an der Maschine sind. Markiertes erneut aufnehmen; Vorhandenes wird nicht verändert.</translation>
+        <translation>Jede Aufnahme wird sofort beurteilt, solange man an der Maschine ist. Markiertes erneut aufnehmen; Vorhandenes wird nicht verändert.</translation>
     </message>
     <message>
         <source>Each file states its sign and its units; try one point by hand before you trust a table.</source>
@@ -10782,10 +10782,10 @@ endgültig fehlgeschlagen: {}</translation>
         <translation> Und %1 weitere.</translation>
     </message>
     <message numerus="yes">
-        <source>Watching %1: %n files, %2 accepted. You may leave this page; capturing goes on.</source>
+        <source>Watching %1: %n files, %2 accepted. Capturing goes on when this page is left.</source>
         <translation>
-            <numerusform>Überwacht wird %1: %n Datei, %2 angenommen. Sie können diese Seite verlassen; die Aufnahme läuft weiter.</numerusform>
-            <numerusform>Überwacht wird %1: %n Dateien, %2 angenommen. Sie können diese Seite verlassen; die Aufnahme läuft weiter.</numerusform>
+            <numerusform>Überwacht wird %1: %n Datei, %2 angenommen. Die Aufnahme läuft weiter, wenn diese Seite verlassen wird.</numerusform>
+            <numerusform>Überwacht wird %1: %n Dateien, %2 angenommen. Die Aufnahme läuft weiter, wenn diese Seite verlassen wird.</numerusform>
         </translation>
     </message>
 </context>
@@ -11008,7 +11008,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>Add a hole bar or balls, and type their certificate.</source>
-        <translation>Lochleiste oder Kugeln hinzufügen und das Zertifikat eintragen.</translation>
+        <translation>Lochleiste oder Kugeln hinzufügen und den Kalibrierschein eintragen.</translation>
     </message>
     <message>
         <source>Styli</source>
@@ -11085,7 +11085,7 @@ einsatz</translation>
     </message>
     <message>
         <source>Something was typed here for another state of the machine. Show it, or discard it.</source>
-        <translation>Hier wurde etwas für einen anderen Stand der Maschine eingegeben. Zeigen Sie es an oder verwerfen Sie es.</translation>
+        <translation>Hier wurde etwas für einen anderen Stand der Maschine eingegeben. Anzeigen oder verwerfen.</translation>
     </message>
     <message>
         <source>Show it</source>
@@ -11138,7 +11138,7 @@ einsatz</translation>
     </message>
     <message>
         <source>Certificate ± / µm</source>
-        <translation>Zertifikat ± / µm</translation>
+        <translation>Kalibrierschein ± / µm</translation>
     </message>
     <message>
         <source>Standard uncertainty of a certified position</source>
@@ -12528,6 +12528,10 @@ einsatz</translation>
         <source>state the direction of Fanuc pitch error data</source>
         <translation>Richtung der Fanuc-Steigungsfehlerdaten angeben</translation>
     </message>
+    <message>
+        <source>Remains / µm</source>
+        <translation>Verbleibt / µm</translation>
+    </message>
 </context>
 <context>
     <name>spindrift::gui::ConnectionsPanel</name>
@@ -13263,11 +13267,11 @@ einsatz</translation>
     </message>
     <message>
         <source>Confidence %1 for the first. Adding all of them takes the rms from %2 to %3; the noise alone is %4. %5</source>
-        <translation>Konfidenz %1 für den ersten. Alle hinzuzufügen senkt den rms von %2 auf %3; das Rauschen allein beträgt %4. %5</translation>
+        <translation>Konfidenz %1 für den ersten Effekt. Das Hinzufügen aller senkt den rms von %2 auf %3; das Rauschen allein beträgt %4. %5</translation>
     </message>
     <message>
         <source>Confidence %1. Adding it takes the rms from %2 to %3; the noise alone is %4. %5</source>
-        <translation>Konfidenz %1. Ihn hinzuzufügen senkt den rms von %2 auf %3; das Rauschen allein beträgt %4. %5</translation>
+        <translation>Konfidenz %1. Das Hinzufügen senkt den rms von %2 auf %3; das Rauschen allein beträgt %4. %5</translation>
     </message>
     <message>
         <source>Search</source>
@@ -13939,7 +13943,7 @@ einsatz</translation>
     </message>
     <message>
         <source>An effect was being edited while the effects were others. Show it: it can be applied to these, or cancelled.</source>
-        <translation>Ein Effekt wurde bearbeitet, als die Effekte andere waren. Zeigen Sie ihn an: Er kann auf diese angewendet oder abgebrochen werden.</translation>
+        <translation>Ein Effekt wurde bearbeitet, als die Effekte andere waren. Nach dem Anzeigen kann er auf diese angewendet oder abgebrochen werden.</translation>
     </message>
     <message>
         <source>Show it</source>
@@ -14791,20 +14795,12 @@ einsatz</translation>
         <translation>%1 → %2</translation>
     </message>
     <message>
-        <source>p2p %1 %2</source>
-        <translation>p2p %1 %2</translation>
-    </message>
-    <message>
         <source>fit %1 %</source>
         <translation>Fit %1 %</translation>
     </message>
     <message>
         <source>rms before, after and noise floor</source>
         <translation>rms vorher, nachher und Grundrauschen</translation>
-    </message>
-    <message>
-        <source>rms: of the residuals of all observations. p2p: the largest peak-to-peak of the residual of one series. fit: 100 % is perfect, 0 % no better than a constant for each series.</source>
-        <translation>rms: der Residuen aller Beobachtungen. p2p: größter Spitze-Spitze-Wert des Residuums einer Reihe. Fit: 100 % ist perfekt, 0 % nicht besser als eine Konstante je Reihe.</translation>
     </message>
     <message>
         <source>before</source>
@@ -14829,6 +14825,14 @@ einsatz</translation>
     <message>
         <source>noise floor %1</source>
         <translation>Grundrauschen %1</translation>
+    </message>
+    <message>
+        <source>peak to peak %1 %2</source>
+        <translation>Spitze-Spitze %1 %2</translation>
+    </message>
+    <message>
+        <source>rms: of the residuals of all observations. peak to peak: the largest of the residual of one series. fit: 100 % is perfect, 0 % no better than a constant for each series.</source>
+        <translation>rms: der Residuen aller Beobachtungen. Spitze-Spitze: größter Wert des Residuums einer Reihe. Fit: 100 % ist perfekt, 0 % nicht besser als eine Konstante je Reihe.</translation>
     </message>
 </context>
 <context>
@@ -15713,10 +15717,6 @@ einsatz</translation>
 / mm</translation>
     </message>
     <message>
-        <source>Scale</source>
-        <translation>Faktor</translation>
-    </message>
-    <message>
         <source>Measuring points</source>
         <translation>Messpunkte</translation>
     </message>
@@ -15881,7 +15881,7 @@ einsatz</translation>
     </message>
     <message>
         <source>Something was typed here for another state of the machine. Show it, or discard it.</source>
-        <translation>Hier wurde etwas für einen anderen Stand der Maschine eingegeben. Zeigen Sie es an oder verwerfen Sie es.</translation>
+        <translation>Hier wurde etwas für einen anderen Stand der Maschine eingegeben. Anzeigen oder verwerfen.</translation>
     </message>
     <message>
         <source>Show it</source>
@@ -15934,6 +15934,10 @@ einsatz</translation>
     <message>
         <source>No measuring point yet.</source>
         <translation>Noch kein Messpunkt.</translation>
+    </message>
+    <message>
+        <source>Position from</source>
+        <translation>Wegmessung</translation>
     </message>
 </context>
 <context>
@@ -16663,6 +16667,22 @@ einsatz</translation>
     <message>
         <source>%1 (from a file)</source>
         <translation>%1 (aus einer Datei)</translation>
+    </message>
+    <message>
+        <source>three-axis mill</source>
+        <translation>Dreiachsige Fräsmaschine</translation>
+    </message>
+    <message>
+        <source>five-axis machining centre</source>
+        <translation>Fünfachsiges Bearbeitungszentrum</translation>
+    </message>
+    <message>
+        <source>horizontal machining centre</source>
+        <translation>Horizontales Bearbeitungszentrum</translation>
+    </message>
+    <message>
+        <source>gantry milling machine</source>
+        <translation>Portalfräsmaschine</translation>
     </message>
 </context>
 <context>
@@ -19478,10 +19498,6 @@ einsatz</translation>
         <translation>Simulator</translation>
     </message>
     <message>
-        <source>Choose simulator.json…</source>
-        <translation>simulator.json wählen…</translation>
-    </message>
-    <message>
         <source>Take another description of a simulation that can be run</source>
         <translation>Eine andere Beschreibung einer ausführbaren Simulation verwenden</translation>
     </message>
@@ -19492,10 +19508,6 @@ einsatz</translation>
     <message>
         <source>Run the simulator and look for what is missing among its parameters as well</source>
         <translation>Den Simulator ausführen und auch unter seinen Parametern nach dem Fehlenden suchen</translation>
-    </message>
-    <message>
-        <source>Put it into the simulation…</source>
-        <translation>In die Simulation einsetzen…</translation>
     </message>
     <message>
         <source>Parameters</source>
@@ -19656,6 +19668,14 @@ einsatz</translation>
     <message>
         <source>Residual / %1</source>
         <translation>Residuum / %1</translation>
+    </message>
+    <message>
+        <source>Choose simulator.json …</source>
+        <translation>simulator.json wählen …</translation>
+    </message>
+    <message>
+        <source>Put it into the simulation …</source>
+        <translation>In die Simulation einsetzen …</translation>
     </message>
 </context>
 <context>
@@ -19871,10 +19891,6 @@ einsatz</translation>
     <message>
         <source>Fit / %</source>
         <translation>Fit / %</translation>
-    </message>
-    <message>
-        <source>p2p</source>
-        <translation>p2p</translation>
     </message>
     <message>
         <source>Comparison</source>
@@ -20160,6 +20176,10 @@ einsatz</translation>
         <source>After the identification the model is compared with no model and with a static regression.</source>
         <translation>Nach der Identifikation steht das Modell neben „ohne Modell“ und einer statischen Regression.</translation>
     </message>
+    <message>
+        <source>Peak to peak</source>
+        <translation>Spitze-Spitze</translation>
+    </message>
 </context>
 <context>
     <name>spindrift::gui::TouchCapturePage</name>
@@ -20416,16 +20436,16 @@ einsatz</translation>
             <numerusform>Alle %n Antastungen sind plausibel. Ob eine fehlt, zeigt sich, wenn ein zweiter Zyklus zum Vergleich vorliegt.</numerusform>
         </translation>
     </message>
-    <message numerus="yes">
-        <source>Program checked: %n touches in %1 moves inside the travel, none through the artefact, a retract after each, safe height %2 mm. Export writes it.</source>
-        <translation>
-            <numerusform>Programm geprüft: %n Antastung in %1 Bewegungen innerhalb der Verfahrwege, nicht durch den Prüfkörper, danach ein Rückzug, sichere Höhe %2 mm. „Exportieren“ schreibt es.</numerusform>
-            <numerusform>Programm geprüft: %n Antastungen in %1 Bewegungen innerhalb der Verfahrwege, keine durch den Prüfkörper, nach jeder ein Rückzug, sichere Höhe %2 mm. „Exportieren“ schreibt es.</numerusform>
-        </translation>
-    </message>
     <message>
         <source>The machine has changed since the programme was planned. Plan it again.</source>
         <translation>Die Maschine hat sich geändert, seit das Programm geplant wurde. Es neu planen.</translation>
+    </message>
+    <message numerus="yes">
+        <source>Program checked: %n touches in %1 moves inside the travel, none through the artefact, a retract after each, safe height %2 mm. Export (Ctrl+E) writes it.</source>
+        <translation>
+            <numerusform>Programm geprüft: %n Antastung in %1 Bewegungen innerhalb der Verfahrwege, nicht durch den Prüfkörper, danach ein Rückzug, sichere Höhe %2 mm. „Exportieren“ (Strg+E) schreibt es.</numerusform>
+            <numerusform>Programm geprüft: %n Antastungen in %1 Bewegungen innerhalb der Verfahrwege, keine durch den Prüfkörper, nach jeder ein Rückzug, sichere Höhe %2 mm. „Exportieren“ (Strg+E) schreibt es.</numerusform>
+        </translation>
     </message>
 </context>
 <context>
@@ -20780,7 +20800,7 @@ einsatz</translation>
     </message>
     <message>
         <source>Nothing to compare with: balls need three styli, a bar of holes its certificate or its expansion coefficient with a thermometer.</source>
-        <translation>Nichts zu vergleichen: Kugeln brauchen drei Taststifte, ein Bohrungsstab seinen Kalibrierschein oder seinen Ausdehnungskoeffizienten mit Thermometer.</translation>
+        <translation>Nichts zu vergleichen: Kugeln brauchen drei Tastereinsätze, eine Lochleiste ihren Kalibrierschein oder ihren Ausdehnungskoeffizienten mit Thermometer.</translation>
     </message>
     <message>
         <source>Certificate</source>
@@ -20788,7 +20808,7 @@ einsatz</translation>
     </message>
     <message>
         <source>Bar / °C</source>
-        <translation>Stab / °C</translation>
+        <translation>Leiste / °C</translation>
     </message>
     <message>
         <source>%1 against certificate / (µm/m)</source>
@@ -20828,7 +20848,7 @@ einsatz</translation>
     </message>
     <message>
         <source>Stylus 0 moved / µm</source>
-        <translation>Weg von Taststift 0 / µm</translation>
+        <translation>Weg von Tastereinsatz 0 / µm</translation>
     </message>
     <message>
         <source>Joint drift / µm</source>
@@ -21105,11 +21125,11 @@ einsatz</translation>
     </message>
     <message>
         <source>none</source>
-        <translation>keine</translation>
+        <translation>keines</translation>
     </message>
     <message>
         <source>for the</source>
-        <translation>für</translation>
+        <translation>Kriterium</translation>
     </message>
     <message>
         <source>What the goal bounds</source>
@@ -22136,10 +22156,6 @@ einsatz</translation>
         <translation>Punkte, rms über die Zeit / %1</translation>
     </message>
     <message>
-        <source>More than the noise allows</source>
-        <translation>Mehr, als das Rauschen zulässt</translation>
-    </message>
-    <message>
         <source>%1 beyond the noise, rms over time; dotted: the noise explains it</source>
         <translation>%1 über das Rauschen hinaus, rms über die Zeit; gepunktet: durch das Rauschen erklärt</translation>
     </message>
@@ -22194,6 +22210,10 @@ einsatz</translation>
     <message>
         <source>Residual %1 %2</source>
         <translation>Residuum %1 %2</translation>
+    </message>
+    <message>
+        <source>More than the noise allows: at one of the places above, or over all of the time</source>
+        <translation>Mehr, als das Rauschen zulässt: an einer der Stellen oben oder über die ganze Zeit</translation>
     </message>
 </context>
 <context>

@@ -286,8 +286,9 @@ TEST_F(LanguageTest, ValuesOfASentenceAreTranslatedAndNumbersWrittenAsTheLanguag
   applyLanguage(QStringLiteral("de"));
   EXPECT_EQ(coreSentence("Sharpness 0.512, 14 ellipses and 3 circles decoded."),
             QStringLiteral("Schärfe 0,512, 14 Ellipsen und 3 Kreise decodiert."));
-  EXPECT_EQ(coreSentence("The goal of 2.5 µm is met: largest deviation EX is 1.2 ± 0.3 µm at F1, M2."),
-            QStringLiteral("Das Ziel von 2,5 µm ist erreicht: größte Abweichung EX beträgt 1,2 ± 0,3 µm bei F1, M2."));
+  EXPECT_EQ(
+      coreSentence("The goal of 2.5 µm is met: largest deviation EX is 1.2 ± 0.3 µm at F1, M2."),
+      QStringLiteral("Das Ziel von 2,5 µm ist erreicht: die größte Abweichung EX beträgt 1,2 ± 0,3 µm bei F1, M2."));
   EXPECT_EQ(coreSentence("All captures are checked."), QStringLiteral("Alle Aufnahmen sind geprüft."));
   EXPECT_EQ(coreSentence("3 of 12 captures are checked."), QStringLiteral("3 von 12 Aufnahmen sind geprüft."));
   EXPECT_EQ(coreSentence("Not settled: the drift X exceeds 0.5 µm/h."),

@@ -119,7 +119,7 @@ std::span<const char* const> spindrift::gui::core_formats::workflows() noexcept 
     QT_TRANSLATE_NOOP("core", "Train and test overlap: the test figures are not evidence for new data."),
     QT_TRANSLATE_NOOP("core", "Values of a .COM table in mm, to be entered in the control's table editor (the layout of the file is not public): the deviation itself, {}, zero at the first position; positive where the axis travels too far. In the .CMA it is the table of {}. Beyond what was measured it is extrapolated; the ISO 230-1 tables say where."),
     QT_TRANSLATE_NOOP("core", "What is missing is largest in {}."),
-    QT_TRANSLATE_NOOP("core", "What the model does not describe (X {:.2g} µm, Y {:.2g} µm, Z {:.2g} µm) is part of the uncertainty of every correction."),
+    QT_TRANSLATE_NOOP("core", "What the model does not describe (X {:.1f} µm, Y {:.1f} µm, Z {:.1f} µm) is part of the uncertainty of every correction."),
     QT_TRANSLATE_NOOP("core", "[time in s, speed in rpm]"),
     QT_TRANSLATE_NOOP("core", "[x, y, z] in mm"),
     QT_TRANSLATE_NOOP("core", "\"discrepancy_s\" without a simulation."),
