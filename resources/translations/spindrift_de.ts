@@ -5163,10 +5163,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>nicht ausgeführt</translation>
     </message>
     <message>
-        <source>not settled</source>
-        <translation>nicht eingelaufen</translation>
-    </message>
-    <message>
         <source>not started</source>
         <translation>nicht begonnen</translation>
     </message>
@@ -9617,10 +9613,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>{}: gefunden {} {}; zulässig: {:g} bis {:g}.</translation>
     </message>
     <message>
-        <source>Not known yet: the drift {} may still exceed {} µm/h; measure longer.</source>
-        <translation>Noch nicht bekannt: die Drift {} kann noch {} µm/h überschreiten; länger messen.</translation>
-    </message>
-    <message>
         <source>Point {} was measured fewer than {} times: too few to see a drift.</source>
         <translation>Punkt {} wurde weniger als {}-mal gemessen: zu selten, um eine Drift zu sehen.</translation>
     </message>
@@ -9647,10 +9639,6 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>The machines have different names: &quot;{}&quot; before, &quot;{}&quot; after.</source>
         <translation>Die Maschinen haben verschiedene Namen: „{}“ vorher, „{}“ nachher.</translation>
-    </message>
-    <message>
-        <source>Not settled: the drift {} exceeds {} µm/h.</source>
-        <translation>Nicht eingelaufen: die Drift {} überschreitet {} µm/h.</translation>
     </message>
     <message>
         <source>The model is fitted, but does not describe this state, or a point is disturbed: its residuals are larger than the stated uncertainties allow.</source>
@@ -9811,6 +9799,42 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>What the model does not describe (X {:.1f} µm, Y {:.1f} µm, Z {:.1f} µm) is part of the uncertainty of every correction.</source>
         <translation>Was das Modell nicht beschreibt (X {:.1f} µm, Y {:.1f} µm, Z {:.1f} µm), ist Teil der Unsicherheit jeder Korrektur.</translation>
+    </message>
+    <message>
+        <source>Not decidable yet: {}.</source>
+        <translation>Noch nicht entscheidbar: {}.</translation>
+    </message>
+    <message>
+        <source>Not known yet: drift of more than {} µm/h is possible: {}; measure longer.</source>
+        <translation>Noch nicht bekannt: Drift von mehr als {} µm/h ist möglich: {}; länger messen.</translation>
+    </message>
+    <message>
+        <source>Not settled: drift of more than {} µm/h: {}.</source>
+        <translation>Nicht eingelaufen: Drift von mehr als {} µm/h: {}.</translation>
+    </message>
+    <message>
+        <source>beyond the record</source>
+        <translation>länger als die Aufzeichnung</translation>
+    </message>
+    <message>
+        <source>not decidable</source>
+        <translation>nicht entscheidbar</translation>
+    </message>
+    <message>
+        <source>not seen</source>
+        <translation>nicht zu sehen</translation>
+    </message>
+    <message>
+        <source>too short</source>
+        <translation>zu kurz</translation>
+    </message>
+    <message>
+        <source>, time constant beyond the record</source>
+        <translation>, Zeitkonstante länger als die Aufzeichnung</translation>
+    </message>
+    <message>
+        <source>, time constant too short to be determined</source>
+        <translation>, Zeitkonstante zu kurz, um bestimmt zu werden</translation>
     </message>
 </context>
 <context>
@@ -21476,10 +21500,6 @@ einsatz</translation>
         <translation>eingelaufen</translation>
     </message>
     <message>
-        <source>not settled</source>
-        <translation>driftet</translation>
-    </message>
-    <message>
         <source>Deviation of %1 / µm</source>
         <translation>Abweichung von %1 / µm</translation>
     </message>
@@ -21494,6 +21514,22 @@ einsatz</translation>
     <message>
         <source>Check the drift</source>
         <translation>Drift prüfen</translation>
+    </message>
+    <message>
+        <source>Longer than the record: its end was not seen, so it cannot be determined.</source>
+        <translation>Länger als die Aufzeichnung: ihr Ende wurde nicht gesehen, darum ist sie nicht bestimmbar.</translation>
+    </message>
+    <message>
+        <source>Too short to be determined from readings this far apart.</source>
+        <translation>Zu kurz, um aus Messwerten in diesem Abstand bestimmt zu werden.</translation>
+    </message>
+    <message>
+        <source>drifts</source>
+        <translation>driftet</translation>
+    </message>
+    <message>
+        <source>not decidable</source>
+        <translation>nicht entscheidbar</translation>
     </message>
 </context>
 <context>

@@ -291,8 +291,12 @@ TEST_F(LanguageTest, ValuesOfASentenceAreTranslatedAndNumbersWrittenAsTheLanguag
       QStringLiteral("Das Ziel von 2,5 µm ist erreicht: die größte Abweichung EX beträgt 1,2 ± 0,3 µm bei F1, M2."));
   EXPECT_EQ(coreSentence("All captures are checked."), QStringLiteral("Alle Aufnahmen sind geprüft."));
   EXPECT_EQ(coreSentence("3 of 12 captures are checked."), QStringLiteral("3 von 12 Aufnahmen sind geprüft."));
-  EXPECT_EQ(coreSentence("Not settled: the drift X exceeds 0.5 µm/h."),
-            QStringLiteral("Nicht eingelaufen: die Drift X überschreitet 0,5 µm/h."));
+  EXPECT_EQ(
+      coreSentence(
+          "Not settled: drift of more than 0.5 µm/h: EX 0.9 ± 0.1 µm/h and EY 3 ± 1 µm/h. Not decidable yet: EZ 0.3 "
+          "± 0.8 µm/h."),
+      QStringLiteral("Nicht eingelaufen: Drift von mehr als 0,5 µm/h: EX 0,9 ± 0,1 µm/h und EY 3 ± 1 µm/h. Noch nicht "
+                     "entscheidbar: EZ 0,3 ± 0,8 µm/h."));
   EXPECT_EQ(coreSentence("Point \"Q\" was not measured in state M1; allowed: M0."),
             QStringLiteral("Punkt „Q“ wurde in Zustand M1 nicht gemessen; zulässig: M0."))
       << "a sentence that begins with a capital where its format does not";
