@@ -7271,10 +7271,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>{} lässt sich nicht verbinden: {}.</translation>
     </message>
     <message>
-        <source>{} cannot be determined under the scan model {} ({}): {:.4f} rad is what the mounting is assumed to have, with a standard uncertainty of {:.3f} rad that dx, dy carry along. </source>
-        <translation>{} ist unter dem Scanmodell {} nicht bestimmbar ({}): angenommen sind {:.4f} rad aus dem Anbau, mit einer Standardunsicherheit von {:.3f} rad, die dx und dy mittragen. </translation>
-    </message>
-    <message>
         <source>{} cannot be fitted: its bounds &quot;min&quot; and &quot;max&quot; are both {}.</source>
         <translation>{} kann nicht angepasst werden: seine Grenzen &quot;min&quot; und &quot;max&quot; sind beide {}.</translation>
     </message>
@@ -9835,6 +9831,10 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>, time constant too short to be determined</source>
         <translation>, Zeitkonstante zu kurz, um bestimmt zu werden</translation>
+    </message>
+    <message>
+        <source>{} cannot be determined under the scan model {} ({}): {:.1f} mrad is what the mounting is assumed to have, with a standard uncertainty of {:.1f} mrad that dx, dy carry along. </source>
+        <translation>{} ist unter dem Scanmodell {} nicht bestimmbar ({}): angenommen sind {:.1f} mrad aus dem Anbau, mit einer Standardunsicherheit von {:.1f} mrad, die dx und dy mittragen. </translation>
     </message>
 </context>
 <context>

@@ -14,6 +14,7 @@
 
 #include "widgets/common/core_formats.h"
 #include "widgets/common/languages.h"
+#include "widgets/common/words.h"
 #include "widgets/theme/numbers.h"
 
 namespace spindrift::gui {
@@ -204,7 +205,7 @@ class Catalogue {
     }
     if (!english.front().isUpper()) return {};
     Rendered text = whole(english.front().toLower() + english.mid(1), depth);
-    if (text.known > 0) text.text[0] = text.text.front().toUpper();
+    if (text.known > 0) text.text = sentenceStart(text.text);
     return text;
   }
 
