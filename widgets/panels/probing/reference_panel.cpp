@@ -24,6 +24,11 @@
 
 namespace spindrift::gui {
 
+/// As a unit stands behind "/": composed ones in brackets.
+static QString belowLine(const QString& unit) {
+  return unit.contains(QLatin1Char('/')) ? QStringLiteral("(%1)").arg(unit) : unit;
+}
+
 ReferencePanel::ReferencePanel(PageContext page_context, QWidget* parent)
     : QWidget(parent), context_(std::move(page_context)) {
   auto* column = new QVBoxLayout(this);
@@ -79,8 +84,9 @@ void ReferencePanel::setCycles(std::shared_ptr<const TouchEvaluation> evaluation
   parameter_->clear();
   if (cycles != nullptr) {
     for (const std::string& name : cycles->names) {
-      parameter_->addItem(shownTitle(QStringLiteral("%1 / %2").arg(parameterTitle(name), parameterUnit(name))),
-                          fromCore(name));
+      parameter_->addItem(
+          shownTitle(QStringLiteral("%1 / %2").arg(parameterTitle(name), belowLine(parameterUnit(name)))),
+          fromCore(name));
     }
   }
   compare();
@@ -152,7 +158,7 @@ void ReferencePanel::compare() {
     difference.sigma.push_back(p.standard_uncertainty);
   }
   const QString title = parameterTitle(parameter);
-  const QString below = unit.contains(QLatin1Char('/')) ? QStringLiteral("(%1)").arg(unit) : unit;
+  const QString below = belowLine(unit);
   curves_->setAxes(tr("Time / %1").arg(time.name), QStringLiteral("%1 / %2").arg(title, below));
   curves_->setContent({probe, reference});  // the line over the marks: where both agree it would not be seen
   differences_->setAxes(tr("Time / %1").arg(time.name), tr("Difference / %1").arg(below));
