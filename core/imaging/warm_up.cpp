@@ -85,7 +85,10 @@ void driftAtEnd(const Series& s, const std::vector<Approach>& tried, const Appro
     square += weight * (drift * drift + excess * factor * factor * a.amplitude_sigma_um * a.amplitude_sigma_um);
   }
   mean /= weights;
-  const double sigma = std::sqrt(std::max(0.0, square / weights - mean * mean));
+  // Beside the approach a machine may drift steadily: no drift is known better than the slope of a straight line
+  // through all of the series.
+  const double steady = lineThroughEnd(s, s.value_um, s.time_s.size()).standardUncertainty(1) * std::sqrt(excess);
+  const double sigma = std::hypot(std::sqrt(std::max(0.0, square / weights - mean * mean)), steady);
   if (!(sigma > 0.0) || sigma >= axis.drift_sigma_um_per_h) return;
   const Eigen::VectorXd course = best.amplitude_um * (-(s.time_s.array() - s.time_s(0)) / best.tau_s).exp();
   const LinearFitResult line = lineThroughEnd(s, course, count);
@@ -107,15 +110,55 @@ void fitExponential(const Series& s, double limit_um_per_h, Eigen::Index end_cou
   const double misfit = best->chi2 / dof;
   if (best->chi2 >= chi2_constant) return;
   if (fisherTail((chi2_constant - best->chi2) / 2.0 / misfit, 2.0, dof) > 0.01) return;
-  axis.tau_s = best->tau_s;
-  axis.amplitude_um = best->amplitude_um;
-  const double first_drift = std::abs(best->amplitude_um) / best->tau_s * seconds_per_hour;
-  axis.settled_after_s = first_drift > limit_um_per_h ? best->tau_s * std::log(first_drift / limit_um_per_h) : 0.0;
+  if (best->tau_s > s.time_s(n - 1) - s.time_s(0)) {
+    axis.time_constant = TimeConstant::BeyondRecord;
+  } else if (best == tried.begin()) {
+    axis.time_constant = TimeConstant::TooShort;
+  } else {
+    axis.time_constant = TimeConstant::Determined;
+    axis.tau_s = best->tau_s;
+    axis.amplitude_um = best->amplitude_um;
+    const double first_drift = std::abs(best->amplitude_um) / best->tau_s * seconds_per_hour;
+    axis.settled_after_s = first_drift > limit_um_per_h ? best->tau_s * std::log(first_drift / limit_um_per_h) : 0.0;
+  }
   // Where the exponential does not describe the series, what it says of the end is no knowledge.
   if (misfit < 2.0) driftAtEnd(s, tried, *best, std::max(1.0, misfit), end_count, axis);
 }
 
 }  // namespace
+
+WarmUpVerdict warmUpVerdict(double drift_um_per_h, double sigma_um_per_h, double limit_um_per_h) {
+  const double magnitude = std::abs(drift_um_per_h);
+  if (magnitude + 2.0 * sigma_um_per_h < limit_um_per_h) return WarmUpVerdict::Settled;
+  if (magnitude - 2.0 * sigma_um_per_h > limit_um_per_h) return WarmUpVerdict::Drifts;
+  return WarmUpVerdict::NotDecidable;
+}
+
+std::string toString(WarmUpVerdict verdict) {
+  switch (verdict) {
+    case WarmUpVerdict::Settled:
+      return "settled";
+    case WarmUpVerdict::Drifts:
+      return "drifts";
+    case WarmUpVerdict::NotDecidable:
+      return "not decidable";
+  }
+  return "not decidable";
+}
+
+std::string toString(TimeConstant found) {
+  switch (found) {
+    case TimeConstant::NotSeen:
+      return "not seen";
+    case TimeConstant::Determined:
+      return "determined";
+    case TimeConstant::BeyondRecord:
+      return "beyond the record";
+    case TimeConstant::TooShort:
+      return "too short";
+  }
+  return "not seen";
+}
 
 void WarmUpOptions::validate() const {
   if (!(drift_limit_um_per_h > 0.0)) {
@@ -184,14 +227,14 @@ WarmUpResult judgeWarmUp(const ObservationSet& observations, const std::string& 
     const auto end_count = std::max<Eigen::Index>(count, options.window_points);
     fitDrift(s, end_count, axis);
     fitExponential(s, options.drift_limit_um_per_h, end_count, axis);
-    const double magnitude = std::abs(axis.drift_um_per_h);
-    axis.settled = magnitude + 2.0 * axis.drift_sigma_um_per_h < options.drift_limit_um_per_h;
-    settled = settled && axis.settled;
+    axis.verdict = warmUpVerdict(axis.drift_um_per_h, axis.drift_sigma_um_per_h, options.drift_limit_um_per_h);
+    if (axis.verdict != WarmUpVerdict::Settled || axis.settled_after_s > s.time_s(n - 1) - s.time_s(0))
+      axis.settled_after_s.reset();
+    settled = settled && axis.verdict == WarmUpVerdict::Settled;
     const std::string text = fmt::format("{} {}", toString(axis.component),
                                          withUncertainty(axis.drift_um_per_h, axis.drift_sigma_um_per_h, "um/h"));
-    if (!axis.settled) {
-      (magnitude - 2.0 * axis.drift_sigma_um_per_h > options.drift_limit_um_per_h ? drifting : unsure).push_back(text);
-    }
+    if (axis.verdict == WarmUpVerdict::Drifts) drifting.push_back(text);
+    if (axis.verdict == WarmUpVerdict::NotDecidable) unsure.push_back(text);
   }
   if (!any) {
     result.status = FitStatus::Degenerate;
@@ -206,10 +249,11 @@ WarmUpResult judgeWarmUp(const ObservationSet& observations, const std::string& 
                                 options.drift_limit_um_per_h);
   } else if (!drifting.empty()) {
     result.reason =
-        fmt::format("Not settled: the drift {} exceeds {} µm/h.", joinedList(drifting), options.drift_limit_um_per_h);
+        fmt::format("Not settled: drift of more than {} µm/h: {}.", options.drift_limit_um_per_h, joinedList(drifting));
+    if (!unsure.empty()) result.reason += fmt::format(" Not decidable yet: {}.", joinedList(unsure));
   } else {
-    result.reason = fmt::format("Not known yet: the drift {} may still exceed {} µm/h; measure longer.",
-                                joinedList(unsure), options.drift_limit_um_per_h);
+    result.reason = fmt::format("Not known yet: drift of more than {} µm/h is possible: {}; measure longer.",
+                                options.drift_limit_um_per_h, joinedList(unsure));
   }
   return result;
 }

@@ -3,9 +3,10 @@
 // drift and its uncertainty, not from a fixed time (P0 section 3.5: 10, 25, 20 um over about 80 min).
 //
 // Per axis: v(t) = c + a exp(-t / tau), tau searched, c and a by least squares; and a straight line through the last
-// part of the series for the drift that is left; the exponential's drift at the end in its place
-// where both agree and it is known better. Settled: |drift| + 2 u(drift) is below the limit in every axis. Time
-// in s, values in um, drift in um/h.
+// part of the series for the drift that is left; the exponential's drift at the end in its place where both agree and
+// it is known better. Settled: |drift| + 2 u(drift) is below the limit in every axis; drifts: |drift| - 2 u(drift) is
+// above it; between them it cannot be decided. A time constant beyond the record, or shorter than the shortest that was
+// tried, is no result. Time in s, values in um, drift in um/h.
 #pragma once
 
 #include <array>
@@ -27,6 +28,24 @@ struct WarmUpOptions {
   void validate() const;
 };
 
+enum class WarmUpVerdict {
+  Settled,
+  Drifts,
+  NotDecidable,  ///< the limit lies within drift +- 2 u(drift): measure longer
+};
+
+/// Of one axis; `drift` and `sigma` in um/h, not a number: not decidable.
+[[nodiscard]] WarmUpVerdict warmUpVerdict(double drift_um_per_h, double sigma_um_per_h, double limit_um_per_h);
+[[nodiscard]] std::string toString(WarmUpVerdict verdict);  ///< "settled", "drifts", "not decidable"
+
+enum class TimeConstant {
+  NotSeen,       ///< no exponential beats a constant
+  Determined,    ///< WarmUpAxis::tau_s
+  BeyondRecord,  ///< longer than the series: the end of the approach was not seen
+  TooShort,      ///< as short as the shortest that was tried, a 30th of the series
+};
+[[nodiscard]] std::string toString(TimeConstant found);
+
 struct WarmUpAxis {
   bool measured = false;
   Component component = Component::EX;
@@ -34,11 +53,13 @@ struct WarmUpAxis {
   std::vector<double> value_um;
   double drift_um_per_h = 0.0;
   double drift_sigma_um_per_h = 0.0;
-  bool settled = false;
-  double total_um = 0.0;        ///< last minus first
-  std::optional<double> tau_s;  ///< time constant; empty if no exponential is seen
+  WarmUpVerdict verdict = WarmUpVerdict::NotDecidable;
+  double total_um = 0.0;  ///< last minus first
+  TimeConstant time_constant = TimeConstant::NotSeen;
+  std::optional<double> tau_s;  ///< if it is determined
   std::optional<double> amplitude_um;
-  std::optional<double> settled_after_s;  ///< when the fitted exponential's drift falls below the limit
+  /// When the fitted exponential's drift fell below the limit: of an axis that has settled, within the series.
+  std::optional<double> settled_after_s;
 };
 
 /// What a drift may be of.

@@ -346,13 +346,12 @@ ProfilerCalibration calibrateProfiler(const PointCloud& scan, const std::array<d
       result.undetermined.emplace_back(names[static_cast<std::size_t>(i)]);
       // Not measured: the mounting's own uncertainty, nothing less.
       result.message += fmt::format(
-          "{} cannot be determined under the scan model {} ({}): {:.4f} rad is what the mounting is assumed to have, "
-          "with a standard "
-          "uncertainty of {:.3f} rad that dx, dy carry along. ",
+          "{} cannot be determined under the scan model {} ({}): {:.1f} mrad is what the mounting is assumed to "
+          "have, with a standard uncertainty of {:.1f} mrad that dx, dy carry along. ",
           mountingInWords(names[static_cast<std::size_t>(i)]), printedName(options.scan_model),
           options.scan_model == ScanModel::Rigid ? "a circle is invariant under rotation about its axis"
                                                  : "the height of a point does not depend on where the carriage stands",
-          std::abs(q[i]) < 5e-5 ? 0.0 : q[i], result.standardUncertainty(i));
+          std::abs(q[i]) < 5e-5 ? 0.0 : 1e3 * q[i], 1e3 * result.standardUncertainty(i));
     }
   if (std::abs(result.unexplained_slope_rad) > 1e-3)
     result.message += fmt::format(

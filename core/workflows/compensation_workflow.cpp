@@ -88,7 +88,7 @@ struct PreparedModel {
 void noteLack(CompensationPlan& plan) {
   if (!(plan.lack_of_fit_um.maxCoeff() > 0.0)) return;
   plan.warnings.push_back(fmt::format(
-      "What the model does not describe (X {:.2g} µm, Y {:.2g} µm, Z {:.2g} µm) is part of the uncertainty of "
+      "What the model does not describe (X {:.1f} µm, Y {:.1f} µm, Z {:.1f} µm) is part of the uncertainty of "
       "every correction.",
       plan.lack_of_fit_um.x(), plan.lack_of_fit_um.y(), plan.lack_of_fit_um.z()));
 }

@@ -68,13 +68,18 @@ CheckResult checkResultOf(const WarmUpResult& warm_up) {
                     {"tau_s", jsonNumber(axis.tau_s)},
                     {"amplitude_um", jsonNumber(axis.amplitude_um)},
                     {"settled_after_s", jsonNumber(axis.settled_after_s)},
-                    {"settled", axis.settled},
+                    {"time_constant", toString(axis.time_constant)},
+                    {"settled", axis.verdict == WarmUpVerdict::Settled},
+                    {"verdict", toString(axis.verdict)},
                     {"time_s", axis.time_s},
                     {"value_um", axis.value_um}});
+    std::string tau;
+    if (axis.tau_s) tau = fmt::format(", time constant {:.0f} min", *axis.tau_s / 60.0);
+    if (axis.time_constant == TimeConstant::BeyondRecord) tau = ", time constant beyond the record";
+    if (axis.time_constant == TimeConstant::TooShort) tau = ", time constant too short to be determined";
     result.summary += fmt::format("{}  drift {}{}: {}\n", toString(axis.component),
-                                  withUncertainty(axis.drift_um_per_h, axis.drift_sigma_um_per_h, "um/h"),
-                                  axis.tau_s ? fmt::format(", time constant {:.0f} min", *axis.tau_s / 60.0) : "",
-                                  axis.settled ? "settled" : "not settled");
+                                  withUncertainty(axis.drift_um_per_h, axis.drift_sigma_um_per_h, "um/h"), tau,
+                                  toString(axis.verdict));
   }
   result.summary += warm_up.reason + "\n";
   if (!warm_up.cause_reason.empty()) result.summary += warm_up.cause_reason + "\n";
@@ -114,10 +119,14 @@ WarmUpResult warmUpFrom(const nlohmann::json& json) try {
     axis.drift_um_per_h = optional(entry.at("drift_um_per_h").at("value")).value_or(unknown);
     axis.drift_sigma_um_per_h = optional(entry.at("drift_um_per_h").at("standard_uncertainty")).value_or(unknown);
     axis.total_um = optional(entry.at("total_um")).value_or(unknown);
-    axis.tau_s = optional(entry.at("tau_s"));
+    const std::string found = entry.value("time_constant", std::string());
+    for (const TimeConstant t : {TimeConstant::Determined, TimeConstant::BeyondRecord, TimeConstant::TooShort})
+      if (toString(t) == found) axis.time_constant = t;
+    // Checks stored before this was told apart carry a bound of the search as a result: nothing is shown of it.
+    if (axis.time_constant == TimeConstant::Determined) axis.tau_s = optional(entry.at("tau_s"));
     axis.amplitude_um = optional(entry.at("amplitude_um"));
-    axis.settled_after_s = optional(entry.at("settled_after_s"));
-    axis.settled = entry.at("settled").get<bool>();
+    axis.verdict = warmUpVerdict(axis.drift_um_per_h, axis.drift_sigma_um_per_h, result.drift_limit_um_per_h);
+    if (axis.verdict == WarmUpVerdict::Settled) axis.settled_after_s = optional(entry.at("settled_after_s"));
     axis.time_s = entry.at("time_s").get<std::vector<double>>();
     axis.value_um = entry.at("value_um").get<std::vector<double>>();
     for (std::size_t k = 0; k < result.axes.size(); ++k)

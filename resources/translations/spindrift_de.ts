@@ -420,10 +420,6 @@
         <translation>Ein leerer Ordner</translation>
     </message>
     <message>
-        <source>Browse…</source>
-        <translation>Durchsuchen…</translation>
-    </message>
-    <message>
         <source>CalculiX</source>
         <translation>CalculiX</translation>
     </message>
@@ -478,6 +474,10 @@
     <message>
         <source>table of sensitivities</source>
         <translation>Tabelle der Empfindlichkeiten</translation>
+    </message>
+    <message>
+        <source>Browse …</source>
+        <translation>Durchsuchen …</translation>
     </message>
 </context>
 <context>
@@ -582,7 +582,7 @@
     </message>
     <message>
         <source>(temperature of the bar not known: taken as that of the certificate)</source>
-        <translation>(Temperatur der Leiste nicht bekannt: als die des Zertifikats angenommen)</translation>
+        <translation>(Temperatur der Leiste nicht bekannt: als die des Kalibrierscheins angenommen)</translation>
     </message>
     <message>
         <source>(the first)</source>
@@ -794,7 +794,7 @@
     </message>
     <message>
         <source>A certificate uncertainty of {:g} µm is implausibly large; check the unit.</source>
-        <translation>Eine Zertifikatsunsicherheit von {:g} µm ist unplausibel groß; Einheit prüfen.</translation>
+        <translation>Eine Unsicherheit des Kalibrierscheins von {:g} µm ist unplausibel groß; Einheit prüfen.</translation>
     </message>
     <message>
         <source>A compensation that is not a number is not written.</source>
@@ -1714,7 +1714,7 @@
     </message>
     <message>
         <source>The first ball is the origin of the certificate; allowed: 0, 0, 0.</source>
-        <translation>Die erste Kugel ist der Ursprung des Zertifikats; zulässig: 0, 0, 0.</translation>
+        <translation>Die erste Kugel ist der Ursprung des Kalibrierscheins; zulässig: 0, 0, 0.</translation>
     </message>
     <message>
         <source>The fit of the pocket&apos;s rim did not settle.</source>
@@ -2146,7 +2146,7 @@
     </message>
     <message>
         <source>The uncertainty of the certificate</source>
-        <translation>Die Unsicherheit des Zertifikats</translation>
+        <translation>Die Unsicherheit des Kalibrierscheins</translation>
     </message>
     <message>
         <source>The uncertainty of the mounting must be positive (rad).</source>
@@ -3544,7 +3544,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>Distance {} differs from the certificate by {:.2f} mm: are balls swapped or is this another artefact?</source>
-        <translation>Abstand {} weicht um {:.2f} mm vom Zertifikat ab: sind Kugeln vertauscht, oder ist dies ein anderer Prüfkörper?</translation>
+        <translation>Abstand {} weicht um {:.2f} mm vom Kalibrierschein ab: sind Kugeln vertauscht, oder ist dies ein anderer Prüfkörper?</translation>
     </message>
     <message>
         <source>distances between features are 25.4 times too large: the machine file looks like inches; allowed: millimetres in both files.</source>
@@ -5161,10 +5161,6 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>not run</source>
         <translation>nicht ausgeführt</translation>
-    </message>
-    <message>
-        <source>not settled</source>
-        <translation>nicht eingelaufen</translation>
     </message>
     <message>
         <source>not started</source>
@@ -7275,10 +7271,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>{} lässt sich nicht verbinden: {}.</translation>
     </message>
     <message>
-        <source>{} cannot be determined under the scan model {} ({}): {:.4f} rad is what the mounting is assumed to have, with a standard uncertainty of {:.3f} rad that dx, dy carry along. </source>
-        <translation>{} ist unter dem Scanmodell {} nicht bestimmbar ({}): angenommen sind {:.4f} rad aus dem Anbau, mit einer Standardunsicherheit von {:.3f} rad, die dx und dy mittragen. </translation>
-    </message>
-    <message>
         <source>{} cannot be fitted: its bounds &quot;min&quot; and &quot;max&quot; are both {}.</source>
         <translation>{} kann nicht angepasst werden: seine Grenzen &quot;min&quot; und &quot;max&quot; sind beide {}.</translation>
     </message>
@@ -9054,7 +9046,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>largest deviation {} is {} at {}</source>
-        <translation>größte Abweichung {} beträgt {} bei {}</translation>
+        <translation>die größte Abweichung {} beträgt {} bei {}</translation>
     </message>
     <message>
         <source>rms of {} is {}</source>
@@ -9211,10 +9203,6 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>two</source>
         <translation>zwei</translation>
-    </message>
-    <message>
-        <source>What the model does not describe (X {:.2g} µm, Y {:.2g} µm, Z {:.2g} µm) is part of the uncertainty of every correction.</source>
-        <translation>Was das Modell nicht beschreibt (X {:.2g} µm, Y {:.2g} µm, Z {:.2g} µm), ist Teil der Unsicherheit jeder Korrektur.</translation>
     </message>
     <message>
         <source>{} has none of the {} {} images it needs in {}</source>
@@ -9446,7 +9434,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>The expansion coefficient of {} is not stated: its lengths against the certificate are not corrected for {:.1f} K.</source>
-        <translation>Der Ausdehnungskoeffizient von {} ist nicht angegeben: Seine Längen gegen das Zertifikat sind nicht um {:.1f} K korrigiert.</translation>
+        <translation>Der Ausdehnungskoeffizient von {} ist nicht angegeben: Seine Längen gegen den Kalibrierschein sind nicht um {:.1f} K korrigiert.</translation>
     </message>
     <message>
         <source>The log has no spindle speed: that the machine was at rest could not be checked.</source>
@@ -9621,10 +9609,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>{}: gefunden {} {}; zulässig: {:g} bis {:g}.</translation>
     </message>
     <message>
-        <source>Not known yet: the drift {} may still exceed {} µm/h; measure longer.</source>
-        <translation>Noch nicht bekannt: die Drift {} kann noch {} µm/h überschreiten; länger messen.</translation>
-    </message>
-    <message>
         <source>Point {} was measured fewer than {} times: too few to see a drift.</source>
         <translation>Punkt {} wurde weniger als {}-mal gemessen: zu selten, um eine Drift zu sehen.</translation>
     </message>
@@ -9651,10 +9635,6 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>The machines have different names: &quot;{}&quot; before, &quot;{}&quot; after.</source>
         <translation>Die Maschinen haben verschiedene Namen: „{}“ vorher, „{}“ nachher.</translation>
-    </message>
-    <message>
-        <source>Not settled: the drift {} exceeds {} µm/h.</source>
-        <translation>Nicht eingelaufen: die Drift {} überschreitet {} µm/h.</translation>
     </message>
     <message>
         <source>The model is fitted, but does not describe this state, or a point is disturbed: its residuals are larger than the stated uncertainties allow.</source>
@@ -9694,7 +9674,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>{} and {} are collinear in the training and separate here: their effects cannot be distinguished from the training; vary one without the other there.</source>
-        <translation>{} und {} haben sich im Training gemeinsam bewegt und trennen sich hier: Welche davon was verursacht, sagt das Training nicht; lassen Sie dort einmal eine ohne die andere laufen.</translation>
+        <translation>{} und {} haben sich im Training gemeinsam bewegt und trennen sich hier: Welche davon was verursacht, sagt das Training nicht; dort einmal eine ohne die andere laufen lassen.</translation>
     </message>
     <message>
         <source>, {:g} {} given: {}</source>
@@ -9815,6 +9795,50 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>Held out: dashed points took no part in any fit.</source>
         <translation>Zurückgehalten: gestrichelte Punkte nahmen an keiner Anpassung teil.</translation>
+    </message>
+    <message>
+        <source>What the model does not describe (X {:.1f} µm, Y {:.1f} µm, Z {:.1f} µm) is part of the uncertainty of every correction.</source>
+        <translation>Was das Modell nicht beschreibt (X {:.1f} µm, Y {:.1f} µm, Z {:.1f} µm), ist Teil der Unsicherheit jeder Korrektur.</translation>
+    </message>
+    <message>
+        <source>Not decidable yet: {}.</source>
+        <translation>Noch nicht entscheidbar: {}.</translation>
+    </message>
+    <message>
+        <source>Not known yet: drift of more than {} µm/h is possible: {}; measure longer.</source>
+        <translation>Noch nicht bekannt: Drift von mehr als {} µm/h ist möglich: {}; länger messen.</translation>
+    </message>
+    <message>
+        <source>Not settled: drift of more than {} µm/h: {}.</source>
+        <translation>Nicht eingelaufen: Drift von mehr als {} µm/h: {}.</translation>
+    </message>
+    <message>
+        <source>beyond the record</source>
+        <translation>länger als die Aufzeichnung</translation>
+    </message>
+    <message>
+        <source>not decidable</source>
+        <translation>nicht entscheidbar</translation>
+    </message>
+    <message>
+        <source>not seen</source>
+        <translation>nicht zu sehen</translation>
+    </message>
+    <message>
+        <source>too short</source>
+        <translation>zu kurz</translation>
+    </message>
+    <message>
+        <source>, time constant beyond the record</source>
+        <translation>, Zeitkonstante länger als die Aufzeichnung</translation>
+    </message>
+    <message>
+        <source>, time constant too short to be determined</source>
+        <translation>, Zeitkonstante zu kurz, um bestimmt zu werden</translation>
+    </message>
+    <message>
+        <source>{} cannot be determined under the scan model {} ({}): {:.1f} mrad is what the mounting is assumed to have, with a standard uncertainty of {:.1f} mrad that dx, dy carry along. </source>
+        <translation>{} ist unter dem Scanmodell {} nicht bestimmbar ({}): angenommen sind {:.1f} mrad aus dem Anbau, mit einer Standardunsicherheit von {:.1f} mrad, die dx und dy mittragen. </translation>
     </message>
 </context>
 <context>
@@ -10049,7 +10073,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>Each capture is judged at once, while you stand at the machine. Take again what is marked; nothing that is there is altered.</source>
-        <translation>Jede Aufnahme wird sofort beurteilt, solange Sie an der Maschine sind. Markiertes erneut aufnehmen; Vorhandenes wird nicht verändert.</translation>
+        <translation>Jede Aufnahme wird sofort beurteilt, solange man an der Maschine ist. Markiertes erneut aufnehmen; Vorhandenes wird nicht verändert.</translation>
     </message>
     <message>
         <source>Each file states its sign and its units; try one point by hand before you trust a table.</source>
@@ -10786,10 +10810,10 @@ endgültig fehlgeschlagen: {}</translation>
         <translation> Und %1 weitere.</translation>
     </message>
     <message numerus="yes">
-        <source>Watching %1: %n files, %2 accepted. You may leave this page; capturing goes on.</source>
+        <source>Watching %1: %n files, %2 accepted. Capturing goes on when this page is left.</source>
         <translation>
-            <numerusform>Überwacht wird %1: %n Datei, %2 angenommen. Sie können diese Seite verlassen; die Aufnahme läuft weiter.</numerusform>
-            <numerusform>Überwacht wird %1: %n Dateien, %2 angenommen. Sie können diese Seite verlassen; die Aufnahme läuft weiter.</numerusform>
+            <numerusform>Überwacht wird %1: %n Datei, %2 angenommen. Die Aufnahme läuft weiter, wenn diese Seite verlassen wird.</numerusform>
+            <numerusform>Überwacht wird %1: %n Dateien, %2 angenommen. Die Aufnahme läuft weiter, wenn diese Seite verlassen wird.</numerusform>
         </translation>
     </message>
 </context>
@@ -11012,7 +11036,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>Add a hole bar or balls, and type their certificate.</source>
-        <translation>Lochleiste oder Kugeln hinzufügen und das Zertifikat eintragen.</translation>
+        <translation>Lochleiste oder Kugeln hinzufügen und den Kalibrierschein eintragen.</translation>
     </message>
     <message>
         <source>Styli</source>
@@ -11089,7 +11113,7 @@ einsatz</translation>
     </message>
     <message>
         <source>Something was typed here for another state of the machine. Show it, or discard it.</source>
-        <translation>Hier wurde etwas für einen anderen Stand der Maschine eingegeben. Zeigen Sie es an oder verwerfen Sie es.</translation>
+        <translation>Hier wurde etwas für einen anderen Stand der Maschine eingegeben. Anzeigen oder verwerfen.</translation>
     </message>
     <message>
         <source>Show it</source>
@@ -11142,7 +11166,7 @@ einsatz</translation>
     </message>
     <message>
         <source>Certificate ± / µm</source>
-        <translation>Zertifikat ± / µm</translation>
+        <translation>Kalibrierschein ± / µm</translation>
     </message>
     <message>
         <source>Standard uncertainty of a certified position</source>
@@ -12532,6 +12556,10 @@ einsatz</translation>
         <source>state the direction of Fanuc pitch error data</source>
         <translation>Richtung der Fanuc-Steigungsfehlerdaten angeben</translation>
     </message>
+    <message>
+        <source>Remains / µm</source>
+        <translation>Verbleibt / µm</translation>
+    </message>
 </context>
 <context>
     <name>spindrift::gui::ConnectionsPanel</name>
@@ -13267,11 +13295,11 @@ einsatz</translation>
     </message>
     <message>
         <source>Confidence %1 for the first. Adding all of them takes the rms from %2 to %3; the noise alone is %4. %5</source>
-        <translation>Konfidenz %1 für den ersten. Alle hinzuzufügen senkt den rms von %2 auf %3; das Rauschen allein beträgt %4. %5</translation>
+        <translation>Konfidenz %1 für den ersten Effekt. Das Hinzufügen aller senkt den rms von %2 auf %3; das Rauschen allein beträgt %4. %5</translation>
     </message>
     <message>
         <source>Confidence %1. Adding it takes the rms from %2 to %3; the noise alone is %4. %5</source>
-        <translation>Konfidenz %1. Ihn hinzuzufügen senkt den rms von %2 auf %3; das Rauschen allein beträgt %4. %5</translation>
+        <translation>Konfidenz %1. Das Hinzufügen senkt den rms von %2 auf %3; das Rauschen allein beträgt %4. %5</translation>
     </message>
     <message>
         <source>Search</source>
@@ -13943,7 +13971,7 @@ einsatz</translation>
     </message>
     <message>
         <source>An effect was being edited while the effects were others. Show it: it can be applied to these, or cancelled.</source>
-        <translation>Ein Effekt wurde bearbeitet, als die Effekte andere waren. Zeigen Sie ihn an: Er kann auf diese angewendet oder abgebrochen werden.</translation>
+        <translation>Ein Effekt wurde bearbeitet, als die Effekte andere waren. Nach dem Anzeigen kann er auf diese angewendet oder abgebrochen werden.</translation>
     </message>
     <message>
         <source>Show it</source>
@@ -14795,20 +14823,12 @@ einsatz</translation>
         <translation>%1 → %2</translation>
     </message>
     <message>
-        <source>p2p %1 %2</source>
-        <translation>p2p %1 %2</translation>
-    </message>
-    <message>
         <source>fit %1 %</source>
         <translation>Fit %1 %</translation>
     </message>
     <message>
         <source>rms before, after and noise floor</source>
         <translation>rms vorher, nachher und Grundrauschen</translation>
-    </message>
-    <message>
-        <source>rms: of the residuals of all observations. p2p: the largest peak-to-peak of the residual of one series. fit: 100 % is perfect, 0 % no better than a constant for each series.</source>
-        <translation>rms: der Residuen aller Beobachtungen. p2p: größter Spitze-Spitze-Wert des Residuums einer Reihe. Fit: 100 % ist perfekt, 0 % nicht besser als eine Konstante je Reihe.</translation>
     </message>
     <message>
         <source>before</source>
@@ -14833,6 +14853,14 @@ einsatz</translation>
     <message>
         <source>noise floor %1</source>
         <translation>Grundrauschen %1</translation>
+    </message>
+    <message>
+        <source>peak to peak %1 %2</source>
+        <translation>Spitze-Spitze %1 %2</translation>
+    </message>
+    <message>
+        <source>rms: of the residuals of all observations. peak to peak: the largest of the residual of one series. fit: 100 % is perfect, 0 % no better than a constant for each series.</source>
+        <translation>rms: der Residuen aller Beobachtungen. Spitze-Spitze: größter Wert des Residuums einer Reihe. Fit: 100 % ist perfekt, 0 % nicht besser als eine Konstante je Reihe.</translation>
     </message>
 </context>
 <context>
@@ -15717,10 +15745,6 @@ einsatz</translation>
 / mm</translation>
     </message>
     <message>
-        <source>Scale</source>
-        <translation>Faktor</translation>
-    </message>
-    <message>
         <source>Measuring points</source>
         <translation>Messpunkte</translation>
     </message>
@@ -15885,7 +15909,7 @@ einsatz</translation>
     </message>
     <message>
         <source>Something was typed here for another state of the machine. Show it, or discard it.</source>
-        <translation>Hier wurde etwas für einen anderen Stand der Maschine eingegeben. Zeigen Sie es an oder verwerfen Sie es.</translation>
+        <translation>Hier wurde etwas für einen anderen Stand der Maschine eingegeben. Anzeigen oder verwerfen.</translation>
     </message>
     <message>
         <source>Show it</source>
@@ -15938,6 +15962,10 @@ einsatz</translation>
     <message>
         <source>No measuring point yet.</source>
         <translation>Noch kein Messpunkt.</translation>
+    </message>
+    <message>
+        <source>Position from</source>
+        <translation>Wegmessung</translation>
     </message>
 </context>
 <context>
@@ -16667,6 +16695,22 @@ einsatz</translation>
     <message>
         <source>%1 (from a file)</source>
         <translation>%1 (aus einer Datei)</translation>
+    </message>
+    <message>
+        <source>three-axis mill</source>
+        <translation>Dreiachsige Fräsmaschine</translation>
+    </message>
+    <message>
+        <source>five-axis machining centre</source>
+        <translation>Fünfachsiges Bearbeitungszentrum</translation>
+    </message>
+    <message>
+        <source>horizontal machining centre</source>
+        <translation>Horizontales Bearbeitungszentrum</translation>
+    </message>
+    <message>
+        <source>gantry milling machine</source>
+        <translation>Portalfräsmaschine</translation>
     </message>
 </context>
 <context>
@@ -19486,10 +19530,6 @@ einsatz</translation>
         <translation>Simulator</translation>
     </message>
     <message>
-        <source>Choose simulator.json…</source>
-        <translation>simulator.json wählen…</translation>
-    </message>
-    <message>
         <source>Take another description of a simulation that can be run</source>
         <translation>Eine andere Beschreibung einer ausführbaren Simulation verwenden</translation>
     </message>
@@ -19500,10 +19540,6 @@ einsatz</translation>
     <message>
         <source>Run the simulator and look for what is missing among its parameters as well</source>
         <translation>Den Simulator ausführen und auch unter seinen Parametern nach dem Fehlenden suchen</translation>
-    </message>
-    <message>
-        <source>Put it into the simulation…</source>
-        <translation>In die Simulation einsetzen…</translation>
     </message>
     <message>
         <source>Parameters</source>
@@ -19664,6 +19700,14 @@ einsatz</translation>
     <message>
         <source>Residual / %1</source>
         <translation>Residuum / %1</translation>
+    </message>
+    <message>
+        <source>Choose simulator.json …</source>
+        <translation>simulator.json wählen …</translation>
+    </message>
+    <message>
+        <source>Put it into the simulation …</source>
+        <translation>In die Simulation einsetzen …</translation>
     </message>
 </context>
 <context>
@@ -19879,10 +19923,6 @@ einsatz</translation>
     <message>
         <source>Fit / %</source>
         <translation>Fit / %</translation>
-    </message>
-    <message>
-        <source>p2p</source>
-        <translation>p2p</translation>
     </message>
     <message>
         <source>Comparison</source>
@@ -20168,6 +20208,10 @@ einsatz</translation>
         <source>After the identification the model is compared with no model and with a static regression.</source>
         <translation>Nach der Identifikation steht das Modell neben „ohne Modell“ und einer statischen Regression.</translation>
     </message>
+    <message>
+        <source>Peak to peak</source>
+        <translation>Spitze-Spitze</translation>
+    </message>
 </context>
 <context>
     <name>spindrift::gui::TouchCapturePage</name>
@@ -20424,16 +20468,16 @@ einsatz</translation>
             <numerusform>Alle %n Antastungen sind plausibel. Ob eine fehlt, zeigt sich, wenn ein zweiter Zyklus zum Vergleich vorliegt.</numerusform>
         </translation>
     </message>
-    <message numerus="yes">
-        <source>Program checked: %n touches in %1 moves inside the travel, none through the artefact, a retract after each, safe height %2 mm. Export writes it.</source>
-        <translation>
-            <numerusform>Programm geprüft: %n Antastung in %1 Bewegungen innerhalb der Verfahrwege, nicht durch den Prüfkörper, danach ein Rückzug, sichere Höhe %2 mm. „Exportieren“ schreibt es.</numerusform>
-            <numerusform>Programm geprüft: %n Antastungen in %1 Bewegungen innerhalb der Verfahrwege, keine durch den Prüfkörper, nach jeder ein Rückzug, sichere Höhe %2 mm. „Exportieren“ schreibt es.</numerusform>
-        </translation>
-    </message>
     <message>
         <source>The machine has changed since the programme was planned. Plan it again.</source>
         <translation>Die Maschine hat sich geändert, seit das Programm geplant wurde. Es neu planen.</translation>
+    </message>
+    <message numerus="yes">
+        <source>Program checked: %n touches in %1 moves inside the travel, none through the artefact, a retract after each, safe height %2 mm. Export (Ctrl+E) writes it.</source>
+        <translation>
+            <numerusform>Programm geprüft: %n Antastung in %1 Bewegungen innerhalb der Verfahrwege, nicht durch den Prüfkörper, danach ein Rückzug, sichere Höhe %2 mm. „Exportieren“ (Strg+E) schreibt es.</numerusform>
+            <numerusform>Programm geprüft: %n Antastungen in %1 Bewegungen innerhalb der Verfahrwege, keine durch den Prüfkörper, nach jeder ein Rückzug, sichere Höhe %2 mm. „Exportieren“ (Strg+E) schreibt es.</numerusform>
+        </translation>
     </message>
 </context>
 <context>
@@ -20784,7 +20828,7 @@ einsatz</translation>
     </message>
     <message>
         <source>Nothing to compare with: balls need three styli, a bar of holes its certificate or its expansion coefficient with a thermometer.</source>
-        <translation>Nichts zu vergleichen: Kugeln brauchen drei Taststifte, ein Bohrungsstab seinen Kalibrierschein oder seinen Ausdehnungskoeffizienten mit Thermometer.</translation>
+        <translation>Nichts zu vergleichen: Kugeln brauchen drei Tastereinsätze, eine Lochleiste ihren Kalibrierschein oder ihren Ausdehnungskoeffizienten mit Thermometer.</translation>
     </message>
     <message>
         <source>Certificate</source>
@@ -20792,7 +20836,7 @@ einsatz</translation>
     </message>
     <message>
         <source>Bar / °C</source>
-        <translation>Stab / °C</translation>
+        <translation>Leiste / °C</translation>
     </message>
     <message>
         <source>%1 against certificate / (µm/m)</source>
@@ -20832,7 +20876,7 @@ einsatz</translation>
     </message>
     <message>
         <source>Stylus 0 moved / µm</source>
-        <translation>Weg von Taststift 0 / µm</translation>
+        <translation>Weg von Tastereinsatz 0 / µm</translation>
     </message>
     <message>
         <source>Joint drift / µm</source>
@@ -21113,11 +21157,11 @@ einsatz</translation>
     </message>
     <message>
         <source>none</source>
-        <translation>keine</translation>
+        <translation>keines</translation>
     </message>
     <message>
         <source>for the</source>
-        <translation>für</translation>
+        <translation>Kriterium</translation>
     </message>
     <message>
         <source>What the goal bounds</source>
@@ -21464,10 +21508,6 @@ einsatz</translation>
         <translation>eingelaufen</translation>
     </message>
     <message>
-        <source>not settled</source>
-        <translation>driftet</translation>
-    </message>
-    <message>
         <source>Deviation of %1 / µm</source>
         <translation>Abweichung von %1 / µm</translation>
     </message>
@@ -21482,6 +21522,22 @@ einsatz</translation>
     <message>
         <source>Check the drift</source>
         <translation>Drift prüfen</translation>
+    </message>
+    <message>
+        <source>Longer than the record: its end was not seen, so it cannot be determined.</source>
+        <translation>Länger als die Aufzeichnung: ihr Ende wurde nicht gesehen, darum ist sie nicht bestimmbar.</translation>
+    </message>
+    <message>
+        <source>Too short to be determined from readings this far apart.</source>
+        <translation>Zu kurz, um aus Messwerten in diesem Abstand bestimmt zu werden.</translation>
+    </message>
+    <message>
+        <source>drifts</source>
+        <translation>driftet</translation>
+    </message>
+    <message>
+        <source>not decidable</source>
+        <translation>nicht entscheidbar</translation>
     </message>
 </context>
 <context>
@@ -22144,10 +22200,6 @@ einsatz</translation>
         <translation>Punkte, rms über die Zeit / %1</translation>
     </message>
     <message>
-        <source>More than the noise allows</source>
-        <translation>Mehr, als das Rauschen zulässt</translation>
-    </message>
-    <message>
         <source>%1 beyond the noise, rms over time; dotted: the noise explains it</source>
         <translation>%1 über das Rauschen hinaus, rms über die Zeit; gepunktet: durch das Rauschen erklärt</translation>
     </message>
@@ -22202,6 +22254,10 @@ einsatz</translation>
     <message>
         <source>Residual %1 %2</source>
         <translation>Residuum %1 %2</translation>
+    </message>
+    <message>
+        <source>More than the noise allows: at one of the places above, or over all of the time</source>
+        <translation>Mehr, als das Rauschen zulässt: an einer der Stellen oben oder über die ganze Zeit</translation>
     </message>
 </context>
 <context>

@@ -21,10 +21,10 @@
 <context>
     <name>spindrift::gui::ArrivingPanel</name>
     <message numerus="yes">
-        <source>Watching %1: %n files, %2 accepted. You may leave this page; capturing goes on.</source>
+        <source>Watching %1: %n files, %2 accepted. Capturing goes on when this page is left.</source>
         <translation>
-            <numerusform>Watching %1: %n file, %2 accepted. You may leave this page; capturing goes on.</numerusform>
-            <numerusform>Watching %1: %n files, %2 accepted. You may leave this page; capturing goes on.</numerusform>
+            <numerusform>Watching %1: %n file, %2 accepted. Capturing goes on when this page is left.</numerusform>
+            <numerusform>Watching %1: %n files, %2 accepted. Capturing goes on when this page is left.</numerusform>
         </translation>
     </message>
 </context>
@@ -304,10 +304,10 @@
         </translation>
     </message>
     <message numerus="yes">
-        <source>Program checked: %n touches in %1 moves inside the travel, none through the artefact, a retract after each, safe height %2 mm. Export writes it.</source>
+        <source>Program checked: %n touches in %1 moves inside the travel, none through the artefact, a retract after each, safe height %2 mm. Export (Ctrl+E) writes it.</source>
         <translation>
-            <numerusform>Program checked: %n touch in %1 moves inside the travel, not through the artefact, a retract after it, safe height %2 mm. Export writes it.</numerusform>
-            <numerusform>Program checked: %n touches in %1 moves inside the travel, none through the artefact, a retract after each, safe height %2 mm. Export writes it.</numerusform>
+            <numerusform>Program checked: %n touch in %1 moves inside the travel, not through the artefact, a retract after it, safe height %2 mm. Export (Ctrl+E) writes it.</numerusform>
+            <numerusform>Program checked: %n touches in %1 moves inside the travel, none through the artefact, a retract after each, safe height %2 mm. Export (Ctrl+E) writes it.</numerusform>
         </translation>
     </message>
 </context>

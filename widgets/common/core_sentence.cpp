@@ -14,6 +14,7 @@
 
 #include "widgets/common/core_formats.h"
 #include "widgets/common/languages.h"
+#include "widgets/common/words.h"
 #include "widgets/theme/numbers.h"
 
 namespace spindrift::gui {
@@ -146,7 +147,8 @@ class Catalogue {
   Rendered rendered(const QString& english, int depth) {
     if (english.isEmpty() || depth > deepest_sentence) return {shownNumbers(english), 0};
     // The parts of a long sentence come up again and again.
-    if (const auto seen = tried_.find(english); seen != tried_.end()) return seen->second;
+    if (const auto seen = tried_.find(english); seen != tried_.end() && seen->second.depth <= depth)
+      return seen->second.rendered;
     Rendered best = whole(english, depth);
     const auto consider = [&best](Rendered&& other) {
       if (other.known > best.known) best = std::move(other);
@@ -163,7 +165,7 @@ class Catalogue {
       }
     }
     if (best.known == 0) best.text = shownNumbers(english);
-    tried_.emplace(english, best);
+    tried_.insert_or_assign(english, Tried{best, depth});
     return best;
   }
 
@@ -204,7 +206,7 @@ class Catalogue {
     }
     if (!english.front().isUpper()) return {};
     Rendered text = whole(english.front().toLower() + english.mid(1), depth);
-    if (text.known > 0) text.text[0] = text.text.front().toUpper();
+    if (text.known > 0) text.text = sentenceStart(text.text);
     return text;
   }
 
@@ -256,8 +258,13 @@ class Catalogue {
   struct Hash {
     std::size_t operator()(const QString& text) const { return qHash(text); }
   };
-  std::unordered_map<QString, Rendered, Hash> tried_;  ///< of the sentence at work
-  std::unordered_map<QString, QString, Hash> whole_;   ///< formats without placeholders
+  /// What is found deep within other sentences may have stopped short: it does not hold further up.
+  struct Tried {
+    Rendered rendered;
+    int depth = 0;
+  };
+  std::unordered_map<QString, Tried, Hash> tried_;    ///< of the sentence at work
+  std::unordered_map<QString, QString, Hash> whole_;  ///< formats without placeholders
   std::vector<Entry> entries_;
   QCache<QString, QString> known_{most_known};
 };

@@ -25,6 +25,7 @@
 #include "widgets/common/table_habits.h"
 #include "widgets/common/table_titles.h"
 #include "widgets/common/whole_rows.h"
+#include "widgets/common/words.h"
 #include "widgets/theme/fonts.h"
 #include "widgets/theme/icons.h"
 #include "widgets/theme/shown_units.h"
@@ -136,8 +137,7 @@ static QString capitalised(QString sentence) {
   const qsizetype end = sentence.indexOf(QLatin1Char(' '));
   const QString word = end < 0 ? sentence : sentence.left(end);
   const bool plain = std::all_of(word.begin(), word.end(), [](QChar c) { return c.isLetter() && !c.isUpper(); });
-  if (plain && !word.isEmpty()) sentence[0] = sentence[0].toUpper();
-  return sentence;
+  return plain ? sentenceStart(sentence) : sentence;
 }
 
 void Callout::show(Tone tone, const QString& sentence) {
@@ -241,6 +241,7 @@ NumberTile::NumberTile(const QString& name, QWidget* parent) : QFrame(parent) {
   note_->setProperty("role", QStringLiteral("secondaryText"));
   column->addWidget(value_);
   column->addWidget(note_);
+  column->addStretch(1);  // beside a tile with more lines its own stay on the same height
 }
 
 void NumberTile::set(const QString& value, const QString& note, Tone tone) {
@@ -565,17 +566,15 @@ class WrappedCells : public QStyledItemDelegate {
   using QStyledItemDelegate::QStyledItemDelegate;
   [[nodiscard]] QString displayText(const QVariant& value, const QLocale& locale) const override {
     static const QRegularExpression joints(QStringLiteral("(?<=\\w)([._/])(?=[A-Za-z])"));
-    static const QRegularExpression quantity(
-        QString::fromUtf8("(?<=\\d) (?=±|°|%|(µ?m|mm|µrad|K|N|s|h|min|px|rpm)(?!\\w))|(?<=±) "));
-    return QStyledItemDelegate::displayText(value, locale)
-        .replace(joints, QStringLiteral("\\1\u200b"))
-        .replace(quantity, QStringLiteral("\u00a0"));
+    return keptTogether(QStyledItemDelegate::displayText(value, locale).replace(joints, QStringLiteral("\\1\u200b")));
   }
   [[nodiscard]] QSize sizeHint(const QStyleOptionViewItem& option, const QModelIndex& index) const override {
     constexpr int padding = 6;  // of the style sheet
     QStyleOptionViewItem narrower = option;
     narrower.rect.setWidth(std::max(1, option.rect.width() - 2 * padding));
-    return QStyledItemDelegate::sizeHint(narrower, index);
+    QSize size = QStyledItemDelegate::sizeHint(narrower, index);
+    size.rheight() += padding;  // lines of one row stand closer than those of two
+    return size;
   }
 };
 

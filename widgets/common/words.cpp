@@ -1,13 +1,24 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "widgets/common/words.h"
 
+#include <QRegularExpression>
+
 #include "core/base/unit_text.h"
 
 namespace spindrift::gui {
 
 QString sentenceStart(QString text) {
-  if (!text.isEmpty()) text[0] = text[0].toUpper();
+  if (!text.isEmpty() && text[0].script() == QChar::Script_Latin) text[0] = text[0].toUpper();
   return text;
+}
+
+QString keptTogether(QString text) {
+  static const QString unit =
+      QStringLiteral("(?:[µnm]?m|[µm]?rad|arcsec|µin|°[CF]?|%|K|N|W|V|[µm]?s|h|min|px|rpm|mm/min|1/min)(?!\\w)");
+  static const QRegularExpression joints(
+      QStringLiteral("(?<=\\d) (?=±|(?:%1))|(?<=±) (?=\\d)|(?<=\\b[xyzXYZ]) (?=[-\u2212]?\\d)|(?<= /) (?=\\(?%1)")
+          .arg(unit));
+  return text.replace(joints, QStringLiteral("\u00a0"));
 }
 
 QString unitText(std::string_view unit) {

@@ -141,8 +141,8 @@ QImage IncomingService::thumbnail(const std::string& name) const {
 QStringList IncomingService::retakes() {
   QStringList sentences;
   for (const CaptureIntake::Retake& retake : intake_.retakes(done())) {
-    sentences << (retake.what.empty() ? coreSentence(retake.why)
-                                      : tr("Take %1 again: %2").arg(fromCore(retake.what), coreSentence(retake.why)));
+    const QString why = coreSentence(retake.why.ends_with('.') ? retake.why : retake.why + ".");
+    sentences << (retake.what.empty() ? why : tr("Take %1 again: %2").arg(fromCore(retake.what), why));
   }
   return sentences;
 }

@@ -59,6 +59,21 @@
 
 namespace spindrift::gui {
 
+namespace {
+
+/// Shows what the session holds now. Why the task of the step failed is said as long as it would fail again: the list
+/// of steps says so too, and a page that is opened again has no other way to know.
+void fill(Page& page, const SessionModel& session) {
+  page.refresh();
+  const TaskGraph tasks = session.tasks();
+  const std::string task = taskOfStep(tasks, page.step());
+  if (task.empty()) return;
+  const TaskStatus status = tasks.status(task);
+  if (status.state == TaskState::Failed) page.callout()->show(Tone::Bad, coreSentence(status.reason));
+}
+
+}  // namespace
+
 MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent), workflow_(session_) {
   setWindowIcon(applicationIcon());
   setMinimumSize(1024, 700);
@@ -291,7 +306,7 @@ void MainWindow::arrive() {
       arrival_ = Arrival::Fill;
       return;
     case Arrival::Fill:
-      page_->refresh();
+      fill(*page_, session_);
       offerNextSoon();
       return;
   }
@@ -399,7 +414,7 @@ void MainWindow::refreshPage() {
       [this] {
         refresh_queued_ = false;
         if (arrival_ != Arrival::Done) return;  // It is filled anyway.
-        if (page_ != nullptr && session_.campaign() != nullptr) page_->refresh();
+        if (page_ != nullptr && session_.campaign() != nullptr) fill(*page_, session_);
         offerNextSoon();
       },
       Qt::QueuedConnection);

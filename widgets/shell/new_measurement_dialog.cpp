@@ -24,11 +24,12 @@ namespace spindrift::gui {
 namespace {
 
 /// The machine of one of the scenarios that come with the program, without what belongs to its data alone.
-nlohmann::json machineOf(const char* scenario) {
+nlohmann::json machineOf(const char* scenario, const QString& name) {
   loadScenarios();
   QFile file(QStringLiteral(":/scenarios/%1.json").arg(QLatin1String(scenario)));
   if (!file.open(QIODevice::ReadOnly)) return {};
   nlohmann::json machine = nlohmann::json::parse(file.readAll().toStdString()).at("machine");
+  machine["name"] = name.toStdString();
   if (machine.contains("profiler")) machine["profiler"].erase("calibration_cloud");
   return machine;
 }
@@ -81,13 +82,14 @@ NewMeasurementDialog::NewMeasurementDialog(const std::optional<nlohmann::json>& 
          tr("As it is now, with its points and artefacts."), *at_hand});
   }
   add({tr("Three-axis mill, fiducials under a microscope"),
-       tr("Vertical spindle, table moves in X and Y; five fiducials."), machineOf("fiducials")});
+       tr("Vertical spindle, table moves in X and Y; five fiducials."), machineOf("fiducials", tr("three-axis mill"))});
   add({tr("Five-axis machining centre, hole bar and touch probe"),
-       tr("Vertical spindle, swivelling and turning table; a bar with seven holes."), machineOf("hole_bar")});
+       tr("Vertical spindle, swivelling and turning table; a bar with seven holes."),
+       machineOf("hole_bar", tr("five-axis machining centre"))});
   add({tr("Horizontal machining centre, balls and star stylus"), tr("Horizontal spindle; four balls, five styli."),
-       machineOf("ball_artefact")});
+       machineOf("ball_artefact", tr("horizontal machining centre"))});
   add({tr("Gantry, free-form artefacts under a laser profiler"),
-       tr("Crossbeam that carries the profiler; four artefacts."), machineOf("scans")});
+       tr("Crossbeam that carries the profiler; four artefacts."), machineOf("scans", tr("gantry milling machine"))});
   connect(choices_, &QListWidget::currentRowChanged, this, &NewMeasurementDialog::showChoice);
   connect(choices_, &QListWidget::itemDoubleClicked, this, &QDialog::accept);
   connect(from_file, &QPushButton::clicked, this, [this] {

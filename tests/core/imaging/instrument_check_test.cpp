@@ -102,6 +102,72 @@ TEST(WarmUp, ASeriesThatIsNoApproachIsJudgedByItsEnd) {
   EXPECT_GT(axis.drift_sigma_um_per_h, 0.5) << "nobody knows its drift to hundredths of a micrometre per hour";
 }
 
+/// EX of one point every 5 min; `value` of the minute in um, with noise of 0.15 um.
+template <typename Value>
+WarmUpAxis seen(Random& random, double minutes, Value value) {
+  ObservationSet set;
+  for (double t = 0.0; t <= minutes; t += 5.0) {
+    Observation o;
+    o.time_s = t * 60.0;
+    o.state = "W" + std::to_string(static_cast<int>(t));
+    o.point = "F1";
+    o.value = value(t) + random.normal(0, 0.15);
+    o.sigma = 0.2;
+    set.rows.push_back(o);
+  }
+  return judgeWarmUp(set, "F1").axes[0];
+}
+
+TEST(WarmUp, ATimeConstantBeyondTheRecordIsNoResult) {
+  Random random(11);
+  for (const double tau_min : {600.0, 1.0e6}) {  // as good as a straight line: its fit ends at the bound of the search
+    const WarmUpAxis axis =
+        seen(random, 240.0, [&](double t) { return 3.0 / 60.0 * tau_min * -std::expm1(-t / tau_min); });
+    EXPECT_EQ(axis.verdict, WarmUpVerdict::Drifts);
+    EXPECT_EQ(axis.time_constant, TimeConstant::BeyondRecord);
+    EXPECT_FALSE(axis.tau_s.has_value());
+    EXPECT_FALSE(axis.settled_after_s.has_value()) << "nobody saw it settle";
+  }
+}
+
+TEST(WarmUp, ATimeConstantAtTheLowerBoundIsNoResult) {
+  Random random(12);
+  const WarmUpAxis axis = seen(random, 600.0, [](double t) { return t > 0.0 ? 20.0 : 0.0; });
+  EXPECT_EQ(axis.time_constant, TimeConstant::TooShort);
+  EXPECT_FALSE(axis.tau_s.has_value());
+}
+
+TEST(WarmUp, AnAxisThatHasNotSettledHasNoTimeAtWhichItSettled) {
+  Random random(13);
+  const WarmUpAxis axis = seen(random, 60.0, [](double t) { return 20.0 * -std::expm1(-t / 25.0); });
+  EXPECT_NE(axis.verdict, WarmUpVerdict::Settled);
+  EXPECT_EQ(axis.time_constant, TimeConstant::Determined);
+  EXPECT_FALSE(axis.settled_after_s.has_value());
+}
+
+TEST(WarmUp, NoDriftIsKnownBetterThanTheSlopeOfTheWholeSeries) {
+  Random random(14);
+  const WarmUpAxis axis = seen(random, 240.0, [](double t) { return 5.0 * -std::expm1(-t / 10.0); });
+  EXPECT_EQ(axis.verdict, WarmUpVerdict::Settled);
+  // 49 readings of 0.14 um over 4 h: 0.14 / (4 h sqrt(49 / 12)).
+  EXPECT_GT(axis.drift_sigma_um_per_h, 0.9 * 0.14 / (4.0 * std::sqrt(49.0 / 12.0)));
+}
+
+TEST(WarmUp, AnAxisIsSettledDriftsOrCannotBeDecided) {
+  EXPECT_EQ(warmUpVerdict(-0.3, 0.3, 1.0), WarmUpVerdict::Settled);
+  EXPECT_EQ(warmUpVerdict(-0.3, 0.8, 1.0), WarmUpVerdict::NotDecidable);
+  EXPECT_EQ(warmUpVerdict(2.8, 0.8, 1.0), WarmUpVerdict::Drifts);
+  EXPECT_EQ(warmUpVerdict(std::nan(""), 0.8, 1.0), WarmUpVerdict::NotDecidable);
+  // Both kinds are named.
+  Random random(15);
+  ObservationSet set = warmUp(random, 45.0);
+  for (Observation& o : set.rows)
+    if (o.component == Component::EX) o.value = random.normal(0, 3.0);
+  const WarmUpResult result = judgeWarmUp(set, "");
+  EXPECT_EQ(result.axes[0].verdict, WarmUpVerdict::NotDecidable);
+  EXPECT_THAT(result.reason, ::testing::MatchesRegex("Not settled: .*EY.* and EZ.*[.] Not decidable yet: EX .*[.]"));
+}
+
 TEST(WarmUp, TooFewMeasurementsAndUnknownPoint) {
   Random random(4);
   EXPECT_EQ(judgeWarmUp(warmUp(random, 10.0), "F1").status, FitStatus::Degenerate);

@@ -184,7 +184,7 @@ TEST(Steps, TheWarmUpIsJudgedByItsOwnMeasurementAndOnTheClockOfTheCampaign) {
   const TaskResult result = prepareTask("check-warm-up", graph, inputs)(job, TaskOutput::Payload);
   s.run("check-warm-up", result.payload);
   EXPECT_EQ(s.step(StepId::WarmUp).state, StepState::Attention);
-  EXPECT_THAT(s.step(StepId::WarmUp).sentence, HasSubstr("Not settled: the drift EX 30"));
+  EXPECT_THAT(s.step(StepId::WarmUp).sentence, HasSubstr("Not settled: drift of more than 1 µm/h: EX 30"));
   const WarmUpResult read = warmUpFrom(result.payload);
   ASSERT_EQ(read.axes[0].time_s.size(), 12U);
   EXPECT_EQ(read.axes[0].time_s.front(), 60.0);

@@ -7,7 +7,9 @@
 #include <QApplication>
 #include <QClipboard>
 #include <QContextMenuEvent>
+#include <QHBoxLayout>
 #include <QHeaderView>
+#include <QLabel>
 #include <QMenu>
 #include <QScrollBar>
 #include <QTableView>
@@ -16,6 +18,7 @@
 
 #include "widgets/common/editor_table.h"
 #include "widgets/common/parts.h"
+#include "widgets/common/words.h"
 #include "widgets/export/exportable.h"
 #include "widgets/models/rows_model.h"
 
@@ -201,6 +204,65 @@ TEST(EditorTableTest, KeepsTheLastColumnWholeAtEveryWidth) {
   for (int column = 0; const char* text : {"X", "0", "rotary encoder"})
     setText(table.get(), 0, column++, QString::fromLatin1(text));
   expectWhole("filled again");
+}
+
+TEST(SentenceTableTest, LinesOfTwoRowsStandFurtherApartThanThoseOfOne) {
+  RowsModel model({QStringLiteral("What"), QStringLiteral("Why")});
+  std::unique_ptr<QTableView> table(makeSentenceTable(&model, QStringLiteral("Reasons"), {}));
+  Row row;
+  row.id = QStringLiteral("F1");
+  row.cells = {{row.id},
+               {QStringLiteral("a sentence that needs more than one line in the room that is left for it here")}};
+  model.setRows({row, row});
+  table->resize(260, 400);
+  table->show();
+  ASSERT_TRUE(QTest::qWaitForWindowExposed(table.get()));
+  table->resizeRowsToContents();
+  const int line = QFontMetrics(table->font()).lineSpacing();
+  ASSERT_GT(table->rowHeight(0), 2 * line) << "the sentence is to have several lines";
+  EXPECT_GE(table->rowHeight(0) % line, 6) << table->rowHeight(0) << " px of lines of " << line << " px";
+}
+
+TEST(NumberTileTest, TilesBesideOneWithMoreLinesKeepTheirHeight) {
+  QWidget window;
+  auto* line = new QHBoxLayout(&window);
+  auto* brief = new NumberTile(QStringLiteral("Touches"));
+  auto* wordy = new NumberTile(QStringLiteral("Length"));
+  line->addWidget(brief, 1);
+  line->addWidget(wordy, 1);
+  brief->set(QStringLiteral("1440"), QStringLiteral("none"));
+  wordy->set(QStringLiteral("0.36"),
+             QStringLiteral("deviation of a hole from the line, over all cycles of the campaign"));
+  window.resize(300, 200);
+  window.show();
+  ASSERT_TRUE(QTest::qWaitForWindowExposed(&window));
+  const auto places = [&](NumberTile* tile) {
+    std::vector<int> tops;
+    for (const QLabel* label : tile->findChildren<QLabel*>()) tops.push_back(label->mapTo(&window, QPoint()).y());
+    return tops;
+  };
+  EXPECT_EQ(places(brief), places(wordy));
+}
+
+TEST(WordsTest, ASymbolKeepsItsCaseAtTheStartOfASentence) {
+  EXPECT_EQ(sentenceStart(QStringLiteral("größte Abweichung")), QStringLiteral("Größte Abweichung"));
+  EXPECT_EQ(sentenceStart(QStringLiteral("überlauf")), QStringLiteral("Überlauf"));
+  EXPECT_EQ(sentenceStart(QStringLiteral("α um X")), QStringLiteral("α um X"));
+  Callout callout;
+  callout.show(Tone::Attention, QStringLiteral("α about X cannot be determined."));
+  EXPECT_EQ(callout.sentence(), QStringLiteral("α about X cannot be determined."));
+}
+
+TEST(WordsTest, NoLineEndsBetweenANumberAndItsUnit) {
+  const auto shown = [](const char* text) {
+    return keptTogether(QString::fromUtf8(text)).replace(QChar(0xa0), QLatin1Char('_')).toStdString();
+  };
+  EXPECT_EQ(shown("the noise alone is 0.55 µm."), "the noise alone is 0.55_µm.");
+  EXPECT_EQ(shown("0,6 ± 0,4 µm/h in 3 states"), "0,6_±_0,4_µm/h in 3 states");
+  EXPECT_EQ(shown("x 20, y 15, z 0 mm, spindle 0°"), "x_20, y_15, z_0_mm, spindle 0°");
+  EXPECT_EQ(shown("Certificate ± / µm"), "Certificate ± /_µm");
+  EXPECT_EQ(shown("Expansion / (µm/(m·K))"), "Expansion /_(µm/(m·K))");
+  EXPECT_EQ(shown("5 measured points"), "5 measured points");
 }
 
 }  // namespace

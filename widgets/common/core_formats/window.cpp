@@ -55,7 +55,7 @@ namespace {
     QT_TRANSLATE_NOOP("SelfTest", "the demo could not be made: %1"),
     QT_TRANSLATE_NOOP("SelfTest", "the discrepancy was not searched"),
     QT_TRANSLATE_NOOP("SimulationPanel", "An empty folder"),
-    QT_TRANSLATE_NOOP("SimulationPanel", "Browse…"),
+    QT_TRANSLATE_NOOP("SimulationPanel", "Browse …"),
     QT_TRANSLATE_NOOP("SimulationPanel", "CalculiX"),
     QT_TRANSLATE_NOOP("SimulationPanel", "Cancel"),
     QT_TRANSLATE_NOOP("SimulationPanel", "It is run inside Spindrift: no other program is started."),

@@ -121,7 +121,7 @@ CompensatePage::CompensatePage(PageContext page_context, QWidget* parent)
 
   auto* left = new Card;
   tabs_ = makeTabs(left);
-  points_ = new RowsModel({tr("Point"), tr("X / µm"), tr("Y / µm"), tr("Z / µm"), tr("Remains")}, this);
+  points_ = new RowsModel({tr("Point"), tr("X / µm"), tr("Y / µm"), tr("Z / µm"), tr("Remains / µm")}, this);
   point_table_ = makeTable(points_, tr("Correction at each point"), tr("Corrections appear here."));
   stretchColumn(point_table_, 0);
   tabs_->addTab(point_table_, tr("Correction at the points"));

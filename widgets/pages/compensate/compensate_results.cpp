@@ -111,7 +111,7 @@ void CompensatePage::showPoints() {
             .arg(sizeText(measuredLength_um(p), QStringLiteral("um")), parts.join(QStringLiteral(", ")));
     rows.push_back(std::move(row));
   }
-  points_->setHeaders({tr("Point"), tr("X / µm"), tr("Y / µm"), tr("Z / µm"), tr("Remains")});
+  points_->setHeaders({tr("Point"), tr("X / µm"), tr("Y / µm"), tr("Z / µm"), tr("Remains / µm")});
   points_->setRows(std::move(rows));
 }
 

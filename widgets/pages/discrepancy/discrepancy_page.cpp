@@ -19,6 +19,7 @@
 #include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
 #include "widgets/common/question.h"
+#include "widgets/common/words.h"
 #include "widgets/jobs/task_job.h"
 #include "widgets/panels/common/effect_titles.h"
 #include "widgets/panels/discrepancy/effects_panel.h"
@@ -575,7 +576,7 @@ void DiscrepancyPage::showVerdict() {
   // The longest sentences are set smaller, so that they stay within two lines.
   setRole(verdict_, s.text.size() > longest_large_sentence ? "pageTitle" : "bigNumber");
   verdict_->setText(onScreen(s.text));
-  verdict_note_->setText(onScreen(s.note.trimmed()));
+  verdict_note_->setText(keptTogether(onScreen(s.note.trimmed())));
   verdict_note_->setVisible(!s.note.isEmpty());
 }
 

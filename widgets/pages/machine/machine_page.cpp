@@ -125,7 +125,7 @@ MachinePage::MachinePage(PageContext page_context, QWidget* parent)
   card->body()->addLayout(form);
   card->body()->addWidget(makeLabel(tr("Linear axes"), "sectionTitle"));
   axes_ = makeEditor({tr("Axis"), tr("From\n/ mm"), tr("To\n/ mm"), tr("Resolution\n/ µm"), tr("Drive"),
-                      tr("Pitch\n/ mm"), tr("Fixed bearing\n/ mm"), tr("Scale")},
+                      tr("Pitch\n/ mm"), tr("Fixed bearing\n/ mm"), tr("Position from")},
                      tr("Linear axes"));
   for (const int column : {4, 7}) axes_->setItemDelegateForColumn(column, new KindWords(axes_));
   card->body()->addWidget(axes_, 2);

@@ -94,7 +94,7 @@ void TouchCapturePage::makeProgram() {
             program_verdict_->show(
                 Tone::Good,
                 tr("Program checked: %n touches in %1 moves inside the travel, none through the artefact, a "
-                   "retract after each, safe height %2 mm. Export writes it.",
+                   "retract after each, safe height %2 mm. Export (Ctrl+E) writes it.",
                    nullptr, static_cast<int>(program_->check.touches))
                     .arg(program_->check.moves.size())
                     .arg(decimalText(program_->plan.safe_height_mm, 'f', 1)));

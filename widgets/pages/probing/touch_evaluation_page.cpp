@@ -325,9 +325,13 @@ void TouchEvaluationPage::showComparison() {
   if (!details_.touches->hole_cycles.empty()) {
     const HoleCycleResult& holes = details_.touches->hole_cycles.front();
     tabs_->setTabText(3, tr("Certificate"));
-    comparison_->setHeaders({tr("Cycle"), tr("Bar / °C"),
-                             tr("%1 against certificate / (µm/m)").arg(fromCore(holes.setup.linear)),
-                             tr("Growth, coefficient × temperature / (µm/m)"), tr("Growth, touches / (µm/m)")});
+    // A bar without certified positions has nothing to show against them.
+    const bool any_certified = !holes.against_certificate.empty();
+    QStringList headers{tr("Cycle")};
+    if (any_certified)
+      headers << tr("Bar / °C") << tr("%1 against certificate / (µm/m)").arg(fromCore(holes.setup.linear));
+    headers << tr("Growth, coefficient × temperature / (µm/m)") << tr("Growth, touches / (µm/m)");
+    comparison_->setHeaders(headers);
     for (const std::string& cycle : holes.cycles) {
       const auto lengths = std::find_if(holes.against_certificate.begin(), holes.against_certificate.end(),
                                         [&](const CertifiedLengths& c) { return c.cycle == cycle; });
@@ -338,12 +342,16 @@ void TouchEvaluationPage::showComparison() {
       if (!certified && !grown) continue;
       Row row;
       row.id = fromCore(cycle);
-      row.cells = {
-          nameCell(row.id),
-          certified && lengths->temperature_degC ? numberCell(*lengths->temperature_degC, 2) : dashCell(),
-          certified ? quantityCell(lengths->slope_um_per_m, lengths->standard_uncertainty_um_per_m) : dashCell(),
-          grown ? grownCell(growth->expected_um_per_m, growth->expected_sigma_um_per_m) : dashCell(),
-          grown ? quantityCell(growth->measured_um_per_m, growth->measured_sigma_um_per_m) : dashCell()};
+      row.cells = {nameCell(row.id)};
+      if (any_certified) {
+        row.cells.push_back(certified && lengths->temperature_degC ? numberCell(*lengths->temperature_degC, 2)
+                                                                   : dashCell());
+        row.cells.push_back(certified ? quantityCell(lengths->slope_um_per_m, lengths->standard_uncertainty_um_per_m)
+                                      : dashCell());
+      }
+      row.cells.push_back(grown ? grownCell(growth->expected_um_per_m, growth->expected_sigma_um_per_m) : dashCell());
+      row.cells.push_back(grown ? quantityCell(growth->measured_um_per_m, growth->measured_sigma_um_per_m)
+                                : dashCell());
       rows.push_back(std::move(row));
     }
     if (rows.empty()) {
@@ -401,7 +409,7 @@ void TouchEvaluationPage::showRepeatability() {
     Row row;
     row.id = fromCore(r.name);
     row.cells = {nameCell(parameterTitle(r.name)), quantityCell(r.repeatability, r.standard_uncertainty),
-                 numberCell(r.expected, 3), Cell{parameterUnit(r.name)}};
+                 numberCell(r.expected, 2), Cell{parameterUnit(r.name)}};
     for (const std::size_t i : {1, 2, 3}) row.cells[i].unit = parameterUnit(r.name);
     rows.push_back(std::move(row));
   }
@@ -411,7 +419,7 @@ void TouchEvaluationPage::showRepeatability() {
         Tone::Neutral,
         tr("Drift slower than nine cycles is removed; the residual scatter is the repeatability of one cycle."));
   } else {
-    repeatability_verdict_->set(Tone::Attention, coreSentence(study.message));
+    repeatability_verdict_->set(Tone::Attention, study.message.empty() ? QString() : coreSentence(study.message + "."));
   }
 }
 

@@ -116,7 +116,7 @@ QWidget* ThermalModelPage::makeChoices() {
 QWidget* ThermalModelPage::makeDetails() {
   auto* card = new Card;
   tabs_ = makeTabs(card);
-  comparison_ = new RowsModel({tr("Model"), tr("Train rms"), tr("Test rms"), tr("Fit / %"), tr("p2p")}, this);
+  comparison_ = new RowsModel({tr("Model"), tr("Train rms"), tr("Test rms"), tr("Fit / %"), tr("Peak to peak")}, this);
   tabs_->addTab(
       makeTable(comparison_, tr("Comparison"),
                 tr("After the identification the model is compared with no model and with a static regression.")),

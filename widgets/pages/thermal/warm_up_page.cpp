@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "widgets/pages/thermal/warm_up_page.h"
 
+#include <QCoreApplication>
 #include <QInputDialog>
 #include <QSplitter>
 #include <QTabWidget>
@@ -28,6 +29,45 @@ namespace {
 
 constexpr std::size_t most_plotted_rows = 1500;
 constexpr auto warm_up_task = "check-warm-up";
+
+QString minutes(double seconds) {
+  return QCoreApplication::translate("spindrift::gui::WarmUpPage", "%1 min").arg(decimalText(seconds / 60, 'f', 0));
+}
+
+QString longerThanRecord(const WarmUpAxis& axis) {
+  return QStringLiteral("> ") + minutes(axis.time_s.back() - axis.time_s.front());
+}
+
+Cell timeConstantCell(const WarmUpAxis& axis) {
+  Cell cell{QStringLiteral("–")};
+  if (axis.tau_s) cell.text = minutes(*axis.tau_s);
+  if (axis.time_s.empty()) return cell;
+  if (axis.time_constant == TimeConstant::BeyondRecord) {
+    cell.text = longerThanRecord(axis);
+    cell.tip = WarmUpPage::tr("Longer than the record: its end was not seen, so it cannot be determined.");
+  }
+  if (axis.time_constant == TimeConstant::TooShort)
+    cell.tip = WarmUpPage::tr("Too short to be determined from readings this far apart.");
+  return cell;
+}
+
+Cell settledAfterCell(const WarmUpAxis& axis) {
+  if (axis.settled_after_s) return {minutes(*axis.settled_after_s)};
+  if (axis.verdict == WarmUpVerdict::Drifts && !axis.time_s.empty()) return {longerThanRecord(axis)};
+  return {QStringLiteral("–")};
+}
+
+Cell verdictCell(WarmUpVerdict verdict) {
+  switch (verdict) {
+    case WarmUpVerdict::Settled:
+      return {WarmUpPage::tr("settled"), Tone::Good, "check-circle"};
+    case WarmUpVerdict::Drifts:
+      return {WarmUpPage::tr("drifts"), Tone::Attention, "alert"};
+    case WarmUpVerdict::NotDecidable:
+      return {WarmUpPage::tr("not decidable"), Tone::Attention, "help"};
+  }
+  return {};
+}
 
 }  // namespace
 
@@ -251,11 +291,9 @@ void WarmUpPage::refresh() {
       row.cells = {
           first,
           {shownNumbers(QString::fromStdString(withUncertainty(axis.drift_um_per_h, axis.drift_sigma_um_per_h, "")))},
-          {axis.tau_s ? tr("%1 min").arg(decimalText(*axis.tau_s / 60, 'f', 0)) : QStringLiteral("–")},
-          {axis.settled_after_s ? tr("%1 min").arg(decimalText(*axis.settled_after_s / 60, 'f', 0))
-                                : QStringLiteral("–")},
-          {axis.settled ? tr("settled") : tr("not settled"), axis.settled ? Tone::Good : Tone::Attention,
-           axis.settled ? "check-circle" : "alert"}};
+          timeConstantCell(axis),
+          settledAfterCell(axis),
+          verdictCell(axis.verdict)};
       rows.push_back(std::move(row));
     }
     drift_->setAxes(tr("Time / %1").arg(unit.name),

@@ -101,6 +101,12 @@ QString shapeKey(std::size_t gain, std::string_view key) {
 
 }  // namespace
 
+/// A bound of the time constant; where there is none, pale words in its place would mean nothing.
+static void askFor(QLineEdit& bound, bool lag) {
+  bound.setEnabled(lag);
+  bound.setPlaceholderText(lag ? EffectEditor::tr("as the data allow") : QString());
+}
+
 EffectEditor::EffectEditor(QWidget* parent) : QWidget(parent) {
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(0, 0, 8, 0);
@@ -144,7 +150,6 @@ EffectEditor::EffectEditor(QWidget* parent) : QWidget(parent) {
   lag_from_->setAccessibleName(tr("Shortest time constant / s"));
   lag_to_ = new QLineEdit;
   lag_to_->setAccessibleName(tr("Longest time constant / s"));
-  for (QLineEdit* edit : {lag_from_, lag_to_}) edit->setPlaceholderText(tr("as the data allow"));
   lag_row->addWidget(lag_from_, 1);
   lag_row->addWidget(new QLabel(tr("to")));
   lag_row->addWidget(lag_to_, 1);
@@ -190,7 +195,7 @@ EffectEditor::EffectEditor(QWidget* parent) : QWidget(parent) {
   connect(sign_, &QComboBox::activated, this, &EffectEditor::touched);
   connect(dynamics_, &QComboBox::currentIndexChanged, this, [this] {
     const bool lag = dynamics_->currentData().toString() == QLatin1String("lag");
-    for (QLineEdit* edit : {lag_from_, lag_to_}) edit->setEnabled(lag);
+    for (QLineEdit* edit : {lag_from_, lag_to_}) askFor(*edit, lag);
     touched();
   });
   connect(column_, &QComboBox::activated, this, [this](int index) {
@@ -358,7 +363,7 @@ void EffectEditor::setEntry(const nlohmann::json& entry) {
                                       : QString());
   }
   const bool lag = dynamics_->currentData().toString() == QLatin1String("lag");
-  for (QLineEdit* edit : {lag_from_, lag_to_}) edit->setEnabled(lag);
+  for (QLineEdit* edit : {lag_from_, lag_to_}) askFor(*edit, lag);
   const nlohmann::json sign = entry_.value("sign", nlohmann::json(0));
   sign_->setCurrentIndex(sign.is_number() ? std::max(0, sign_->findData(static_cast<int>(sign.get<double>()))) : 0);
   contains_->setText(listText(entry_, "contains", QStringLiteral(", ")));

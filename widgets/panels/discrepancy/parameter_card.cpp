@@ -46,7 +46,6 @@ Cell tipped(const QString& words) {
 Cell valueCell(const SimulatorParameter& p) {
   if (p.off()) {
     Cell cell{ParameterCard::tr("off")};
-    cell.icon = "stop";
     cell.tip = ParameterCard::tr("A mechanism that the simulation does not have; it may well be %1.")
                    .arg(withUnit(p.standard_uncertainty, p));
     return cell;

@@ -36,7 +36,7 @@ QString askForVersionFolder(QWidget* parent, const QString& proposed, const QStr
   auto* folder = new QLineEdit(proposed);
   folder->setAccessibleName(putInText("New folder"));
   folder->setMinimumWidth(440);
-  auto* browse = makeButton(putInText("Browse…"), "folder-open");
+  auto* browse = makeButton(putInText("Browse …"), "folder-open");
   line->addWidget(folder, 1);
   line->addWidget(browse);
   column->addLayout(line);

@@ -57,11 +57,11 @@ SimulationPanel::SimulationPanel(PageContext context, QWidget* parent) : QWidget
   runs_ = new WrappedLabel;
   runs_->setProperty("role", QStringLiteral("secondaryText"));
   head_->body()->addWidget(runs_);
-  choose_ = makeButton(tr("Choose simulator.json…"), "folder-open");
+  choose_ = makeButton(tr("Choose simulator.json …"), "folder-open");
   choose_->setToolTip(tr("Take another description of a simulation that can be run"));
   search_ = makeButton(tr("Search with the simulator"), "play");
   search_->setToolTip(tr("Run the simulator and look for what is missing among its parameters as well"));
-  put_ = makeButton(tr("Put it into the simulation…"), nullptr, "primary");
+  put_ = makeButton(tr("Put it into the simulation …"), nullptr, "primary");
   views_ = new Segments({tr("Parameters"), tr("Over time"), tr("Over the table")}, tr("What is shown"));
   head_->addToTitle(views_);
   for (QPushButton* button : {choose_, search_, put_}) head_->addToTitle(button);

@@ -232,7 +232,7 @@ void WherePanel::fillPoints() {
     if (s.significant) {
       beyond.tone = Tone::Attention;
       beyond.icon = "alert";
-      beyond.tip = tr("More than the noise allows");
+      beyond.tip = tr("More than the noise allows: at one of the places above, or over all of the time");
     }
     row.cells = {name, rightCell(sizeText(s.rms_before, {})), rightCell(sizeText(s.rms_after, {})),
                  rightCell(sizeText(s.noise, {})), beyond};

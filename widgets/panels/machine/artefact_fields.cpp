@@ -15,6 +15,7 @@
 #include "widgets/common/core_sentence.h"
 #include "widgets/common/editor_table.h"
 #include "widgets/common/parts.h"
+#include "widgets/common/words.h"
 #include "widgets/models/cells.h"
 #include "widgets/theme/icons.h"
 #include "widgets/theme/numbers.h"
@@ -104,7 +105,7 @@ ArtefactFields::ArtefactFields(QWidget* parent) : QWidget(parent) {
 
 void ArtefactFields::addField(QGridLayout* form, int row, int column, const QString& title, const std::string& key,
                               int parts, const QString& tip) {
-  auto* label = new QLabel(title);
+  auto* label = new QLabel(keptTogether(title));
   label->setWordWrap(true);  // titles of some languages are long
   label->setToolTip(tip);
   labels_[key] = label;

@@ -16,12 +16,18 @@
 #include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
 #include "widgets/models/cells.h"
+#include "widgets/panels/common/effect_titles.h"
 #include "widgets/plots/plot.h"
 #include "widgets/services/touch_results.h"
 #include "widgets/theme/numbers.h"
 #include "widgets/theme/shown_units.h"
 
 namespace spindrift::gui {
+
+/// As a unit stands behind "/": composed ones in brackets.
+static QString belowLine(const QString& unit) {
+  return unit.contains(QLatin1Char('/')) ? QStringLiteral("(%1)").arg(unit) : unit;
+}
 
 ReferencePanel::ReferencePanel(PageContext page_context, QWidget* parent)
     : QWidget(parent), context_(std::move(page_context)) {
@@ -78,8 +84,9 @@ void ReferencePanel::setCycles(std::shared_ptr<const TouchEvaluation> evaluation
   parameter_->clear();
   if (cycles != nullptr) {
     for (const std::string& name : cycles->names) {
-      parameter_->addItem(shownTitle(QStringLiteral("%1 / %2").arg(parameterTitle(name), parameterUnit(name))),
-                          fromCore(name));
+      parameter_->addItem(
+          shownTitle(QStringLiteral("%1 / %2").arg(parameterTitle(name), belowLine(parameterUnit(name)))),
+          fromCore(name));
     }
   }
   compare();
@@ -151,9 +158,10 @@ void ReferencePanel::compare() {
     difference.sigma.push_back(p.standard_uncertainty);
   }
   const QString title = parameterTitle(parameter);
-  curves_->setAxes(tr("Time / %1").arg(time.name), QStringLiteral("%1 / %2").arg(title, unit));
-  curves_->setContent({reference, probe});
-  differences_->setAxes(tr("Time / %1").arg(time.name), tr("Difference / %1").arg(unit));
+  const QString below = belowLine(unit);
+  curves_->setAxes(tr("Time / %1").arg(time.name), QStringLiteral("%1 / %2").arg(title, below));
+  curves_->setContent({probe, reference});  // the line over the marks: where both agree it would not be seen
+  differences_->setAxes(tr("Time / %1").arg(time.name), tr("Difference / %1").arg(below));
   differences_->setLeastRange(0.1);
   differences_->setContent({difference});
   const auto n = static_cast<double>(comparison_.points.size());
@@ -165,12 +173,12 @@ void ReferencePanel::compare() {
       tr("%1 differs from the reference by %2 rms, at most %3 %4; %5 % of %6 cycles agree within two standard "
          "uncertainties; correlation %7. A constant of %8 %4 is taken out: both zeros are arbitrary.")
           .arg(title, quantityText(comparison_.rms, rms_sigma, unit))
-          .arg(decimalText(comparison_.largest, 'g', 3))
+          .arg(sizeText(comparison_.largest, {}))
           .arg(unit)
           .arg(decimalText(100.0 * comparison_.within_two_sigma, 'f', 0))
           .arg(comparison_.points.size())
           .arg(decimalText(comparison_.correlation, 'f', 3))
-          .arg(decimalText(comparison_.offset, 'g', 3)));
+          .arg(sizeText(comparison_.offset, {})));
 }
 
 std::vector<Exportable> ReferencePanel::exportables() const {

@@ -9,6 +9,7 @@
 #include <QSplitter>
 #include <QTableView>
 #include <QVBoxLayout>
+#include <algorithm>
 #include <cmath>
 
 #include "core/base/error.h"
@@ -41,8 +42,14 @@ std::vector<ArtefactSurface> surfaces() {
   return {paper, bumps, crossed, wide};
 }
 
+/// An uncertainty with two digits that tell: "2.0", "0.0014".
+QString uncertaintyText(double value) {
+  const int decimals = value > 0.0 ? std::max(0, 1 - static_cast<int>(std::floor(std::log10(value)))) : 0;
+  return decimalText(value, 'f', decimals);
+}
+
 QString lengthText(double um) {
-  return std::isfinite(um) ? decimalText(um, 'g', 3) : ArtefactDesigner::tr("free");
+  return std::isfinite(um) ? uncertaintyText(um) : ArtefactDesigner::tr("free");
 }
 
 }  // namespace
@@ -210,7 +217,7 @@ void ArtefactDesigner::showDesigns(const ArtefactDesign& rigid, const ArtefactDe
     row.cells.push_back(nameCell(QStringLiteral("%1 / %2").arg(row.id, unit)));
     row.cells.back().unit = unit;
     for (const ArtefactDesign* d : {&rigid, &push_broom}) {
-      Cell cell = std::isfinite(d->sigma[i]) ? Cell{decimalText(d->sigma[i], 'g', 3)}
+      Cell cell = std::isfinite(d->sigma[i]) ? Cell{uncertaintyText(d->sigma[i])}
                                              : toneCell(tr("not determined"), Tone::Attention);
       cell.right = true;
       cell.unit = unit;

@@ -11,6 +11,7 @@
 
 #include "core/base/atomic_file.h"
 #include "core/base/error.h"
+#include "core/tasks/task_options.h"
 #include "tests/widgets/support/story_support.h"
 #include "widgets/common/parts.h"
 #include "widgets/pages/discrepancy/discrepancy_page.h"
@@ -145,6 +146,32 @@ TEST_F(CompensatePageTest, NineParametersOfAStateCompensateToo) {
   EXPECT_TRUE(page_->plan()->limitation.empty());
   EXPECT_EQ(page_->plan()->reference, "state M0");
   EXPECT_EQ(page_->plan()->state, "M17") << "the state that was fitted";
+}
+
+TEST_F(CompensatePageTest, WhyItFailedIsSaidWhenThePageIsOpenedAgainUntilItMayWork) {
+  open(writeStoryCampaign(folder_, Hidden::SpindleGrowth), StepId::Model);
+  window_->currentPage()->runAll();
+  wait();
+  const std::string key = window_->session().campaignKey(option_keys::compensation);
+  window_->session().setSetting(key, {{"state", "M99"}});
+  window_->workflow().goTo(StepId::Compensate);
+  page_ = page<CompensatePage>();
+  page_->runAll();
+  wait();
+  const QString why = page_->callout()->sentence();
+  ASSERT_EQ(window_->workflow().status(StepId::Compensate).state, StepState::Attention) << why.toStdString();
+  EXPECT_TRUE(why.contains(QStringLiteral("M99"))) << why.toStdString();
+  window_->workflow().goTo(StepId::Model);
+  wait();
+  window_->workflow().goTo(StepId::Compensate);
+  wait();
+  EXPECT_EQ(page<CompensatePage>()->callout()->sentence(), why);
+  window_->session().setSetting(key, {{"state", "M17"}});
+  window_->workflow().goTo(StepId::Model);
+  wait();
+  window_->workflow().goTo(StepId::Compensate);
+  wait();
+  EXPECT_NE(page<CompensatePage>()->callout()->sentence(), why) << "with another state it may work";
 }
 
 TEST_F(CompensatePageTest, TheWarmestStateIsChosenFirst) {
