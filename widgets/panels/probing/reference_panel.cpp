@@ -168,7 +168,7 @@ void ReferencePanel::compare() {
           .arg(decimalText(comparison_.largest, 'g', 3))
           .arg(unit)
           .arg(decimalText(100.0 * comparison_.within_two_sigma, 'f', 0))
-          .arg(comparison_.points.size())
+          .arg(comparison_.judged)
           .arg(decimalText(comparison_.correlation, 'f', 3))
           .arg(decimalText(comparison_.offset, 'g', 3)));
 }
