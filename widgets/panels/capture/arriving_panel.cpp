@@ -174,7 +174,7 @@ void ArrivingPanel::refresh() {
   if (!service_.problem().isEmpty()) {
     state_->show(Tone::Bad, service_.problem());
   } else if (service_.running()) {
-    state_->show(Tone::Good, tr("Watching %1: %n files, %2 accepted. You may leave this page; capturing goes on.",
+    state_->show(Tone::Good, tr("Watching %1: %n files, %2 accepted. You may leave this page; capturing continues.",
                                 nullptr, static_cast<int>(items.size()))
                                  .arg(QFileInfo(folder).fileName())
                                  .arg(accepted));
