@@ -116,7 +116,6 @@ TEST_F(PrintedText, OfModelsAndDiscrepancy) {
   expectWellPrinted({"placement", campaign});
   expectWellPrinted({"compensate", campaign});
   expectWellPrinted({"warm-up", campaign});
-  expectWellPrinted({"verify", campaign, campaign});
   expectWellPrinted({"discrepancy", campaign});
   expectWellPrinted({"effects", campaign});
   // The unit of a model of a temperature is that of a temperature.
