@@ -2,6 +2,7 @@
 #include "app/cli/command.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -10,10 +11,12 @@
 #include <filesystem>
 #include <iostream>
 #include <mutex>
+#include <regex>
 #include <stop_token>
 
 #include "core/base/atomic_file.h"
 #include "core/base/error.h"
+#include "core/base/printed_number.h"
 #include "core/base/program_reference.h"
 #include "core/base/text.h"
 
@@ -78,9 +81,10 @@ void refuseResultsInCampaign(const CLI::App& command) {
 
 namespace {
 
-CLI::Validator numberThat(const char* allowed, bool (*accepts)(double)) {
+CLI::Validator numberThat(const std::string& allowed, const std::function<bool(double)>& accepts,
+                          const std::string& description = "NUMBER") {
   CLI::Validator check;
-  check.description("NUMBER");
+  check.description(description);
   check.operation([allowed, accepts](const std::string& text) {
     double value = 0.0;
     if (parseNumber(text, value) && accepts(value)) return std::string();
@@ -97,6 +101,52 @@ CLI::Validator positiveNumber() {
 
 CLI::Validator nonNegativeNumber() {
   return numberThat("zero or a positive number", [](double v) { return v >= 0.0; });
+}
+
+CLI::Validator numberBetween(double least, double most) {
+  const std::string range = fmt::format("{} to {}", printed(least), printed(most));
+  return numberThat(
+      range, [least, most](double v) { return v >= least && v <= most; }, range);
+}
+
+CLI::Validator oneOf(std::vector<std::string> words) {
+  CLI::Validator check;
+  check.description(fmt::format("{{{}}}", fmt::join(words, ",")));
+  check.operation([words = std::move(words)](const std::string& text) {
+    if (std::find(words.begin(), words.end(), text) != words.end()) return std::string();
+    return fmt::format("{} is not allowed; allowed: {}.", text, joinedList(words, "or"));
+  });
+  return check;
+}
+
+std::string usageSentence(const CLI::App& app, const CLI::ParseError& error) {
+  std::string command;
+  const CLI::App* last = &app;
+  while (!last->get_subcommands().empty()) {
+    last = last->get_subcommands().front();
+    command += last->get_name() + " ";
+  }
+  // What CLI11 says, and what is said in its place.
+  const std::string said = error.what();
+  std::smatch parts;
+  static const std::regex subcommand("A subcommand is required"), required("(.*) is required"),
+      extras("The following arguments? (?:was|were) not expected: (.*)"), conversion("Could not convert: (.*?) = (.*)"),
+      missing("(.*): (\\d+) required (.*) missing");
+  if (std::regex_match(said, subcommand))
+    return fmt::format("a command is missing; allowed: those that {}--help lists.", command);
+  if (std::regex_match(said, parts, required))
+    return fmt::format("{} is missing; {}--help says what it is.", parts.str(1), command);
+  if (std::regex_match(said, parts, extras))
+    return fmt::format("{} is not allowed; allowed: what {}--help lists.", parts.str(1), command);
+  if (std::regex_match(said, parts, conversion)) {
+    const CLI::Option* option = last->get_option_no_throw(parts.str(1));
+    const bool whole = option != nullptr && option->get_type_name().find("INT") != std::string::npos;
+    return fmt::format("{}: {} is not allowed; allowed: {}.", parts.str(1), parts.str(2),
+                       whole ? "a whole number" : "a number");
+  }
+  if (std::regex_match(said, parts, missing))
+    return fmt::format("{} has too few values; allowed: {}.", parts.str(1), parts.str(3));
+  return said.ends_with('.') ? said : said + ".";
 }
 
 namespace {
@@ -123,10 +173,9 @@ ProgramOption optionOf(const CLI::Option& option) {
   if (brace != std::string::npos && type.ends_with('}'))
     out.allowed = splitList(std::string_view(type).substr(brace + 1, type.size() - brace - 2));
   if (option.get_positional()) return out;
-  // "FROM:TO" is a name; "S:NUMBER" and "INT:INT in [1 - 9]" are a name and its check.
+  // "FROM:TO" is a name; "S:NUMBER" and "INT:1 to 9" are a name and its check.
   const std::string check = colon == std::string::npos ? std::string() : type.substr(colon + 1);
-  const bool checked = !out.allowed.empty() || check == "NUMBER" || check == "NONNEGATIVE" || check == "POSITIVE" ||
-                       check.find(" in [") != std::string::npos;
+  const bool checked = !out.allowed.empty() || check == "NUMBER" || check.find(" to ") != std::string::npos;
   out.value = checked ? type.substr(0, colon) : type;
   if (out.value == "FLOAT") out.value = "NUMBER";
   if (out.value == "INT" || out.value == "UINT") out.value = "N";
@@ -154,7 +203,7 @@ void addReference(CLI::App& app, const std::string& summary, const std::vector<s
          },
          "Print the reference of all commands: a man page, the completion of bash, or Markdown")
       ->type_name("FORMAT")
-      ->check(CLI::IsMember({"man", "bash", "markdown"}));
+      ->check(oneOf({"man", "bash", "markdown"}));
 }
 
 std::string referenceMarkdown(const CLI::App& app) {

@@ -28,6 +28,12 @@ struct CommandResult {
 /// Checks of an option's number, in words of ours.
 [[nodiscard]] CLI::Validator positiveNumber();
 [[nodiscard]] CLI::Validator nonNegativeNumber();
+[[nodiscard]] CLI::Validator numberBetween(double least, double most);
+/// Check of an option's word.
+[[nodiscard]] CLI::Validator oneOf(std::vector<std::string> words);
+
+/// What is wrong with how the program was called, as one sentence of ours.
+[[nodiscard]] std::string usageSentence(const CLI::App& app, const CLI::ParseError& error);
 
 /// The result with sentences about what was left out, under "notes" and as lines for people.
 [[nodiscard]] CommandResult noted(CommandResult result, const std::vector<std::string>& notes);

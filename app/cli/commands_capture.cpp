@@ -47,7 +47,7 @@ void addPlan(CLI::App& app, CommandLine& line) {
                  });
   command->add_option("MACHINE", a->machine, "machine.json, or the folder of a campaign")->required();
   command->add_option("--kind", a->kind, "image: fiducials under the microscope; cycle: touches; scan: profiler")
-      ->check(CLI::IsMember({"image", "cycle", "scan"}))
+      ->check(oneOf({"image", "cycle", "scan"}))
       ->capture_default_str();
   command->add_option("--states", a->options.states, "Number of thermal states, including the cold reference state")
       ->capture_default_str();

@@ -90,7 +90,7 @@ void addVerify(CLI::App& app, CommandLine& line) {
   command->add_option("--goal-urad", a->request.goal_urad, "Goal in µrad for rotations; 0: they are not judged")
       ->check(nonNegativeNumber());
   command->add_option("--criterion", a->criterion, "Quantity that the goal limits: the largest residual or the rms")
-      ->check(CLI::IsMember({"largest", "rms"}))
+      ->check(oneOf({"largest", "rms"}))
       ->capture_default_str();
 }
 
@@ -108,8 +108,8 @@ void addCompensationCommands(CLI::App& app, CommandLine& line) {
   command
       ->add_option("--model", a->model,
                    "nine-parameter: fitted to one state; higher-order: the same with the higher-order terms in x and y "
-                   "that the evidence supports (see fit); completed: the simulation with the effects of --accept")
-      ->check(CLI::IsMember({"nine-parameter", "higher-order", "completed"}))
+                   "that the evidence supports; completed: the simulation with the effects of --accept")
+      ->check(oneOf({"nine-parameter", "higher-order", "completed"}))
       ->capture_default_str();
   command->add_option("--state", a->request.state,
                       "Thermal state; default: the one with the largest rms of the measured deviations");
@@ -132,7 +132,7 @@ void addCompensationCommands(CLI::App& app, CommandLine& line) {
           ->add_option("--fanuc", a->fanuc,
                        "Direction in which a positive value of Fanuc pitch error data moves the axis, as tried on the "
                        "control; without it no such data are written")
-          ->check(CLI::IsMember({"positive", "negative"}));
+          ->check(oneOf({"positive", "negative"}));
   command->add_option("--fanuc-unit", a->request.fanuc_unit_um, "Detection unit of the Fanuc control in µm")
       ->capture_default_str()
       ->needs(fanuc);

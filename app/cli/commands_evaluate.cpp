@@ -95,7 +95,7 @@ void addEvaluateCommands(CLI::App& app, CommandLine& line) {
   command
       ->add_option("--scan-model", arguments->options.scan_model,
                    "Model of a laser scan, in place of the one in machine.json")
-      ->check(CLI::IsMember({"rigid", "push_broom"}));
+      ->check(oneOf({"rigid", "push_broom"}));
   command
       ->add_option("--exclude", arguments->excluded,
                    "Exclude a capture (file name as in its list) or a part of a scan (\"mask/CLOUD: erase lasso X,Y "

@@ -8,6 +8,7 @@
 
 #include "core/base/atomic_file.h"
 #include "core/base/json_reader.h"
+#include "core/base/printed_number.h"
 #include "core/base/text.h"
 #include "core/finite_elements/fe_deviation.h"
 
@@ -137,10 +138,11 @@ CommandResult import(const MapArguments& arguments, const ReaderOfMap& open, Job
                  {"largest_deviation", jsonNumber(fe.largest_deviation)},
                  {"plausible", fe.plausible}};
   result.summary = fmt::format(
-      "{}: {} rows of {} states ({} s to {} s) from {} nodes; largest displacement {:.4g} µm, largest deviation of the "
+      "{}: {} rows of {} states ({:g} s to {:g} s) from {} nodes; largest displacement {:.4g} µm, largest deviation of "
+      "the "
       "tool relative to the table {:.4g} µm or µrad",
-      arguments.out, fe.rows.size(), fe.states, fe.first_s, fe.last_s, fe.nodes, fe.largest_displacement_um,
-      fe.largest_deviation);
+      arguments.out, fe.rows.size(), fe.states, printed(fe.first_s), printed(fe.last_s), fe.nodes,
+      printed(fe.largest_displacement_um), printed(fe.largest_deviation));
   if (!fe.plausible) {
     result.exit_status = NotGoodEnough;
     result.warnings = fe.notes;
@@ -154,9 +156,10 @@ void addFiniteElementCommands(CLI::App& app, CommandLine& line, const ReaderOfMa
   CLI::App* group = app.add_subcommand("simulation", "Results of other simulation programs");
   group->require_subcommand(1);
   auto arguments = std::make_shared<MapArguments>();
-  CLI::App* command = addCommand(*group, line, "import",
-                                 "Write simulation.csv from displacements of finite elements: tool minus table, in MCF",
-                                 [arguments, open](JobContext& job) { return import(*arguments, open, job); });
+  CLI::App* command =
+      addCommand(*group, line, "import",
+                 "Write simulation.csv from displacements of finite elements: tool minus table, in machine coordinates",
+                 [arguments, open](JobContext& job) { return import(*arguments, open, job); });
   command->add_option("RESULT", arguments->result,
                       "CalculiX .frd (ASCII) or .dat, VTK .vtu or .pvd (read by the program spindrift-fe); may be "
                       "named in the map");

@@ -6,6 +6,7 @@
 #include "app/cli/command.h"
 #include "core/base/atomic_file.h"
 #include "core/base/json_reader.h"
+#include "core/base/printed_number.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
 #include "core/imaging/artwork.h"
@@ -72,15 +73,16 @@ std::string decodeSummary(const DecodeResult& result, const std::string& image) 
   }
   std::string text = fmt::format(
       "{}: {} ellipses ({} numbered by their neighbours) and {} circles in {:.1f} ms\n"
-      "pixel length {}, turned by {:.3f} deg{}\n"
+      "pixel length {}, turned by {:.3f}°{}\n"
       "centres known to {:.4f} px on average; blur {:.2f} px, contrast {:.0f} and noise {:.1f} grey levels\n",
       image, result.subpatterns.size(), doubtful, result.circles.size(), result.elapsed_ms,
       withUncertainty(result.map.pixel_length_um, result.pixel_length_sigma_um, "um"),
-      result.map.tilt_rad * deg_per_rad, result.map.mirrored ? ", mirrored" : "", sigma, result.exposure.blur_sigma_px,
-      result.exposure.contrast, result.exposure.noise_level);
-  text += "row column      x px      y px  sigma px\n";
+      printed(result.map.tilt_rad * deg_per_rad), result.map.mirrored ? ", mirrored" : "", sigma,
+      result.exposure.blur_sigma_px, result.exposure.contrast, result.exposure.noise_level);
+  text += "row column    x / px    y / px    u / px\n";
   for (const Subpattern& s : result.subpatterns) {
-    text += fmt::format("{:>3} {:>6} {:>9.3f} {:>9.3f} {:>9.4f}\n", s.row, s.column, s.x_px, s.y_px, s.sigma_px);
+    text += fmt::format("{:>3} {:>6} {:>9.3f} {:>9.3f} {:>9.4f}\n", s.row, s.column, printed(s.x_px), printed(s.y_px),
+                        printed(s.sigma_px));
   }
   return text;
 }

@@ -83,18 +83,18 @@ void addFitOptions(CLI::App* command, const std::shared_ptr<FitArguments>& a, bo
     command
         ->add_option("--model", a->model,
                      "Error model: nine-parameter, or higher-order: with the higher-order terms in x and y that the "
-                     "evidence supports (see fit)")
-        ->check(CLI::IsMember({"nine-parameter", "higher-order"}))
+                     "evidence supports")
+        ->check(oneOf({"nine-parameter", "higher-order"}))
         ->capture_default_str();
   } else {
-    command->add_option("--model", a->model, "Error model: nine-parameter")->check(CLI::IsMember({"nine-parameter"}));
+    command->add_option("--model", a->model, "Error model: nine-parameter")->check(oneOf({"nine-parameter"}));
   }
   command->add_option("--state", a->state, "Thermal state, such as M1; default: the last one");
   command->add_option("--points", a->points,
                       "Points to fit, such as F1,F2,F3; the others are used for validation. Default: all");
   command
       ->add_option("--robust", a->robust, "Loss function of the fit; huber and tukey reduce the influence of outliers")
-      ->check(CLI::IsMember({"none", "huber", "tukey"}));
+      ->check(oneOf({"none", "huber", "tukey"}));
 }
 
 CommandResult runFit(const FitArguments& a, JobContext& job) {
@@ -123,7 +123,7 @@ CommandResult runHeatmap(const FitArguments& a, JobContext& job) {
   if (!result.determined) return noted({result.json(), result.message, NotGoodEnough}, notes);
   picture.title = result.title();
   picture.subtitle = result.subtitle();
-  std::string summary = fmt::format("{}: {} over {} x {} nodes\n", result.title(),
+  std::string summary = fmt::format("{}: {} over {} × {} nodes\n", result.title(),
                                     printedUnit(unitOf(options.component)), options.nx, options.ny);
   if (a.pictures.wanted()) summary += a.pictures.write(heatmapPicture(result.field, picture));
   if (!a.csv.empty()) {
@@ -260,7 +260,7 @@ void addKinematicsCommands(CLI::App& app, CommandLine& line) {
         addCommand(app, line, "heatmap", "Map one component of the fitted model over the table (µm, with uncertainty)",
                    [a](JobContext& job) { return runHeatmap(*a, job); });
     addFitOptions(command, a, true);
-    command->add_option("--component", a->component, "EX, EY or EZ (µm)")->check(CLI::IsMember({"EX", "EY", "EZ"}));
+    command->add_option("--component", a->component, "EX, EY or EZ (µm)")->check(oneOf({"EX", "EY", "EZ"}));
     command->add_option("--grid", a->grid, "Nodes along X and Y, such as 61,41")->type_name("NX,NY");
     command
         ->add_option("--limit", a->limit,
@@ -277,7 +277,7 @@ void addKinematicsCommands(CLI::App& app, CommandLine& line) {
     addFitOptions(command, a);
     command->add_option("--with", a->other_points, "The second set of points, such as F2,F4,F5,F7")->required();
     command->add_option("--component", a->component, "Component of the picture: EX, EY or EZ (µm)")
-        ->check(CLI::IsMember({"EX", "EY", "EZ"}));
+        ->check(oneOf({"EX", "EY", "EZ"}));
     a->pictures.addTo(*command, "the map of the difference");
   }
   {
@@ -290,7 +290,7 @@ void addKinematicsCommands(CLI::App& app, CommandLine& line) {
         ->add_option("--criterion", a->criterion,
                      "I: smallest mean variance over the table; D: smallest volume of "
                      "the parameters' confidence region")
-        ->check(CLI::IsMember({"I", "D"}));
+        ->check(oneOf({"I", "D"}));
     command
         ->add_option("--lattice", a->lattice,
                      "Candidate positions on a lattice over the table; default: the machine's fiducials")

@@ -295,7 +295,7 @@ void addPlantGroup(CLI::App& app, CommandLine& line) {
     auto [command, a] = add("event", "Record an event of a machine, such as a repair, or its measurement interval",
                             [](const PlantArguments& args, JobContext&) { return event(args); });
     command->add_option("MACHINE", a->machine, "Machine")->required();
-    command->add_option("--kind", a->kind, "Kind of event")->check(CLI::IsMember(eventKinds()));
+    command->add_option("--kind", a->kind, "Kind of event")->check(oneOf(eventKinds()));
     command->add_option("--time", a->time, "Time of the event (UTC); default: now")->type_name("TIME");
     command->add_option("--note", a->note, "Remark")->type_name("TEXT");
     command->add_option("--every-days", a->every_days, "Measurement interval in days; 0: not specified")
@@ -371,7 +371,7 @@ CommandResult runBatch(const BatchArguments& a, std::int64_t id, const PlantAddr
       if (!report.refused.empty()) throw InputError(report.refused);
       result = told(report.state);
       result.json["tasks_given"] = report.started;
-      if (report.stopped) result.summary += fmt::format("stopped; batch resume {} --engine slurm goes on\n", id);
+      if (report.stopped) result.summary += fmt::format("stopped; batch resume {} --engine slurm continues it\n", id);
       return result;
     }
     const std::string array = giveToSlurm(address, id, options);
@@ -390,7 +390,7 @@ CommandResult runBatch(const BatchArguments& a, std::int64_t id, const PlantAddr
   CommandResult result = told(report.state);
   result.json["processes_started"] = report.started;
   result.json["processes_killed"] = report.killed;
-  if (report.stopped) result.summary += fmt::format("stopped; batch resume {} goes on\n", id);
+  if (report.stopped) result.summary += fmt::format("stopped; batch resume {} continues it\n", id);
   return result;
 }
 
@@ -481,8 +481,8 @@ void tellWhoWorks(CommandResult& result, const BatchState& state, const PlantAdd
   }
   if (slurm) result.json["slurm"] = {{"running", 0}, {"waiting", 0}, {"held", slurm->stuck.size()}};
   result.summary +=
-      fmt::format("{}batch resume {}{} goes on\n", slurm ? "Slurm has no task of it that will begin; " : "", state.id,
-                  slurm ? " --engine slurm" : "");
+      fmt::format("{}batch resume {}{} continues it\n", slurm ? "Slurm has no task of it that will begin; " : "",
+                  state.id, slurm ? " --engine slurm" : "");
 }
 
 CommandResult statusOfBatch(const BatchArguments& a) {
@@ -551,7 +551,8 @@ CommandResult sweepBatch(BatchArguments a) {
   SlurmOptions options = slurmOptions(a, queue.plan(id));
   options.round = state.answered > a.answered ? 1 : a.round + 1;
   if (options.round > options.rounds) {
-    result.summary += fmt::format("{} rounds brought no answer; batch resume {} --engine slurm goes on\n", a.round, id);
+    result.summary +=
+        fmt::format("{} rounds brought no answer; batch resume {} --engine slurm continues it\n", a.round, id);
     return result;
   }
   result.summary += "another round: " + giveToSlurm(address, id, options) + "\n";
@@ -560,16 +561,16 @@ CommandResult sweepBatch(BatchArguments a) {
 
 void addEngineOptions(CLI::App* command, BatchArguments& a) {
   command->add_option("--engine", a.engine, "Where to run: local processes, or tasks of Slurm")
-      ->check(CLI::IsMember({"local", "slurm"}))
+      ->check(oneOf({"local", "slurm"}))
       ->capture_default_str();
   command->add_option("--processes", a.processes, "local: number of processes; 0: one per processor")
-      ->check(CLI::Range(0, 10000));
+      ->check(numberBetween(0, 10000));
   command->add_option("--tasks", a.tasks, "slurm: number of tasks of the array")
-      ->check(CLI::Range(1, 10000))
+      ->check(numberBetween(1, 10000))
       ->capture_default_str();
   command
       ->add_option("--time-limit", a.time_limit_min, "slurm: time limit of a task in minutes; 0: that of the partition")
-      ->check(CLI::Range(0, 1000000));
+      ->check(numberBetween(0, 1000000));
   command->add_flag(
       "--wait", a.wait,
       "slurm: wait until nothing is open, and give Slurm again what it has lost or did not bring to an end");
@@ -624,8 +625,7 @@ void addBatchGroup(CLI::App& app, CommandLine& line) {
         add("work", "Run one worker: claim and process items until none is free (started by the engines)",
             [](const BatchArguments& args, JobContext&) { return workBatch(args); });
     command->add_option("BATCH", a->batch, "Number or name")->required();
-    command->add_option("--engine", a->engine, "Engine that started the worker")
-        ->check(CLI::IsMember({"local", "slurm"}));
+    command->add_option("--engine", a->engine, "Engine that started the worker")->check(oneOf({"local", "slurm"}));
     command->add_option("--budget", a->budget_s, "Start no new item after this time in s")->check(nonNegativeNumber());
   }
   {

@@ -6,8 +6,12 @@
 #include "app/cli/command.h"
 #include "core/base/atomic_file.h"
 #include "core/base/count_text.h"
+#include "core/base/error.h"
+#include "core/base/printed_number.h"
 #include "core/base/text.h"
+#include "core/base/unit_text.h"
 #include "core/base/units.h"
+#include "core/machine/parameter_meanings.h"
 #include "core/probing/checked_program.h"
 #include "core/probing/cycle_studies.h"
 #include "core/probing/evaluate_touches.h"
@@ -103,6 +107,10 @@ void addCycle(CLI::App& app, CommandLine& line) {
             "{} touches on {} in {} moves; read back and checked: all inside the travel, none through the artefact, a "
             "retract after every touch, safe height {:.1f} mm\n",
             check.touches, artefact.id, check.moves.size(), plan.safe_height_mm);
+        if (plan.left_out_below > 0)
+          result.summary +=
+              fmt::format("{} from below left out, where the stem of a ball may be; --from-below includes them\n",
+                          countOf(plan.left_out_below, "touch", "touches"));
         return result;
       });
   command->add_option("MACHINE", a->machine, "machine.json")->required();
@@ -113,7 +121,7 @@ void addCycle(CLI::App& app, CommandLine& line) {
       ->add_option("--control", a->control,
                    "Dialect: fanuc (G65, G31, DPRNT), generic (G38.2, LOG), siemens (MEAS, WRITE) or heidenhain (TCH "
                    "PROBE 4, FN 16)")
-      ->check(CLI::IsMember({"fanuc", "generic", "siemens", "heidenhain"}))
+      ->check(oneOf({"fanuc", "generic", "siemens", "heidenhain"}))
       ->capture_default_str();
   command->add_option("--artefact", a->artefact, "Id of the artefact, if the machine file has several");
   command->add_option("--first-ball", a->first_ball, "Position of the first ball in machine coordinates, mm")
@@ -134,11 +142,11 @@ void addCycle(CLI::App& app, CommandLine& line) {
   command->add_option("--feed", a->plan.guarded_feed_mm_min, "Feed of protected positioning moves, mm/min")
       ->capture_default_str();
   command->add_option("--program-number", a->program.program_number, "Program number (fanuc)")
-      ->check(CLI::Range(1, 9999))
+      ->check(numberBetween(1, 9999))
       ->capture_default_str();
   command
       ->add_option("--rotary-sign", a->program.rotary_sign, "-1 if the control counts the table clockwise from above")
-      ->check(CLI::IsMember({-1, 1}))
+      ->check(oneOf({"-1", "1"}))
       ->capture_default_str();
   command->add_flag("--from-below", a->plan.touch_from_below, "Probe balls from below as well (no stem underneath)");
 }
@@ -261,9 +269,11 @@ void addStudies(CLI::App& app, CommandLine& line) {
                                                {"standard_uncertainty", r.standard_uncertainty},
                                                {"expected_from_touch_noise", r.expected},
                                                {"cycles", r.cycles}};
-          result.summary += fmt::format("{:14} {} (k = {:g}; touch noise alone: {:.3g})\n", r.name,
-                                        withUncertainty(r.repeatability, r.standard_uncertainty, ""),
-                                        a->options.coverage_factor, r.expected);
+          const ErrorParameter parameter = describedParameter(r.name);
+          result.summary += fmt::format("{:<5} {:<18} (k = {:g}; touch noise alone: {:.2g} {}) {}\n", parameter.symbol,
+                                        withUncertainty(r.repeatability, r.standard_uncertainty, parameter.unit),
+                                        a->options.coverage_factor, printed(r.expected), printedUnit(parameter.unit),
+                                        parameter.meaning);
         }
         if (study.status != FitStatus::Converged) {
           result.summary = study.message + "\n";
@@ -309,17 +319,23 @@ void addStudies(CLI::App& app, CommandLine& line) {
                        {"largest", c.largest},
                        {"correlation", c.correlation},
                        {"fit_percent", jsonNumber(c.fit_percent)},
-                       {"within_two_sigma", c.within_two_sigma},
+                       {"within_two_sigma", jsonNumber(c.within_two_sigma)},
                        {"points", points}};
         if (c.status != FitStatus::Converged) {
           result.summary = c.message + "\n";
           result.exit_status = NotGoodEnough;
         } else {
+          const ErrorParameter parameter = describedParameter(c.name);
+          const std::string unit = printedUnit(parameter.unit);
           result.summary = fmt::format(
-              "{}: rms difference {:.3g}, largest {:.3g}, {:.0f} % of {} cycles within two sigma, correlation {:.4f}\n",
-              c.name, c.rms, c.largest, 100.0 * c.within_two_sigma, c.points.size(), c.correlation);
+              "{} ({}): rms difference {:.3g} {}, largest {:.3g} {}, {} within two standard uncertainties, correlation "
+              "{:.4f}\n",
+              parameter.symbol, parameter.meaning, printed(c.rms), unit, printed(c.largest), unit,
+              c.judged > 0 ? fmt::format("{:.0f} % of {}", 100.0 * c.within_two_sigma, countOf(c.judged, "cycle"))
+                           : std::string("no cycle"),
+              printed(c.correlation));
           result.summary += fmt::format("slope {}, offset {}: {}\n", withUncertainty(c.slope, c.slope_sigma, ""),
-                                        withUncertainty(c.offset, c.offset_sigma, ""), c.verdict);
+                                        withUncertainty(c.offset, c.offset_sigma, parameter.unit), c.verdict);
           if (c.differs) result.exit_status = NotGoodEnough;
         }
         return result;
@@ -347,7 +363,10 @@ void addStudies(CLI::App& app, CommandLine& line) {
         result.summary = fmt::format("an unnoticed expansion of {} by 1 µm/m changes\n", bias.second);
         for (std::size_t p = 0; p < bias.names.size(); ++p) {
           per[bias.names[p]] = bias.bias_per_um_per_m[p];
-          result.summary += fmt::format("  {:14} by {:+.3f}\n", bias.names[p], bias.bias_per_um_per_m[p]);
+          const ErrorParameter parameter = describedParameter(bias.names[p]);
+          result.summary +=
+              fmt::format("  {:<5} by {:+7.3f} {:<4}  {}\n", parameter.symbol, printed(bias.bias_per_um_per_m[p]),
+                          printedUnit(parameter.unit), parameter.meaning);
         }
         result.json["bias_per_um_per_m"] = per;
         if (!s->growth.empty()) {
@@ -366,8 +385,8 @@ void addStudies(CLI::App& app, CommandLine& line) {
           const HoleCycleResult& r = more.hole_cycles.front();
           const CycleParameter& last = r.parameters.back().back();
           result.summary +=
-              fmt::format("with the bar as stable length, {} in {}: {}\n", r.names.back(), r.cycles.back(),
-                          withUncertainty(last.value, last.standard_uncertainty, "um/m"));
+              fmt::format("with the bar as stable length, {} in {}: {}\n", describedParameter(r.names.back()).symbol,
+                          r.cycles.back(), withUncertainty(last.value, last.standard_uncertainty, "um/m"));
         }
         return result;
       });

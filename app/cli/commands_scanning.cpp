@@ -7,8 +7,10 @@
 #include <memory>
 
 #include "app/cli/command.h"
+#include "core/base/printed_number.h"
 #include "core/base/text.h"
 #include "core/base/unit_text.h"
+#include "core/base/units.h"
 #include "core/machine/component.h"
 #include "core/scanning/artefact_design.h"
 #include "core/scanning/axis_errors.h"
@@ -52,14 +54,14 @@ void addRegister(CLI::App& app, CommandLine& line) {
   command
       ->add_option("--scan-model", arguments->scan_model,
                    "rigid: the cloud moves as one body; push_broom: every profile at its own machine position")
-      ->check(CLI::IsMember({"rigid", "push_broom"}))
+      ->check(oneOf({"rigid", "push_broom"}))
       ->capture_default_str();
   command
       ->add_option("--method", arguments->method,
                    "ours: cells of the source onto a bicubic spline of the target; ndt-icp: normal distributions "
                    "transform, then iterative "
                    "closest point, as in the reference publication; gicp: generalised ICP (the last two with PCL)")
-      ->check(CLI::IsMember({"ours", "ndt-icp", "gicp"}))
+      ->check(oneOf({"ours", "ndt-icp", "gicp"}))
       ->capture_default_str();
 }
 
@@ -119,7 +121,7 @@ void addCalibrate(CLI::App& app, CommandLine& line) {
       ->add_option("--gamma", arguments->gamma, "gamma from another calibration, with its standard uncertainty (rad)")
       ->type_name("V,S");
   command->add_option("--scan-model", arguments->scan_model, "rigid or push_broom, see register")
-      ->check(CLI::IsMember({"rigid", "push_broom"}))
+      ->check(oneOf({"rigid", "push_broom"}))
       ->capture_default_str();
 }
 
@@ -158,14 +160,16 @@ CommandResult designCommand(DesignArguments arguments) {
   for (const Component k : all_components) {
     const double sigma = d.sigma[static_cast<std::size_t>(k)];
     out.json["sigma"][std::string(toString(k))] = numberOrNull(sigma);
-    out.summary += std::isfinite(sigma) ? fmt::format("  {}  {:10.4g} {}\n", toString(k), sigma, printedUnit(unitOf(k)))
-                                        : fmt::format("  {}  not determined\n", toString(k));
+    out.summary += std::isfinite(sigma)
+                       ? fmt::format("  {}  {:>8.2g} {}\n", toString(k), printed(sigma), printedUnit(unitOf(k)))
+                       : fmt::format("  {}  not determined\n", toString(k));
   }
   out.json["weak_directions"] = nlohmann::json::array();
   for (const WeakDirection& w : d.weak) {
     out.json["weak_directions"].push_back({{"direction", w.name}, {"sigma_um", numberOrNull(w.sigma_um)}});
-    out.summary += fmt::format("  weak: {} (rotations times {:.3g} mm): {}\n", w.name, d.length_mm,
-                               std::isfinite(w.sigma_um) ? fmt::format("{:.4g} µm", w.sigma_um) : "not determined");
+    out.summary +=
+        fmt::format("  weak: {} (rotations times {:.3g} mm): {}\n", w.name, printed(d.length_mm),
+                    std::isfinite(w.sigma_um) ? fmt::format("{:.2g} µm", printed(w.sigma_um)) : "not determined");
   }
   out.summary += fmt::format("  slope up to {:.2f} (x), {:.2f} (y); the profiler sees {:.1f} % of the surface\n",
                              d.largest_slope_x, d.largest_slope_y, 100.0 * d.visible_part);
@@ -201,7 +205,7 @@ void addDesign(CLI::App& app, CommandLine& line) {
                    "Steepest slope that the profiler can measure (dz/dx)")
       ->capture_default_str();
   command->add_option("--scan-model", arguments->scan_model, "rigid or push_broom, see register")
-      ->check(CLI::IsMember({"rigid", "push_broom"}))
+      ->check(oneOf({"rigid", "push_broom"}))
       ->capture_default_str();
   command->add_option("--stl", arguments->stl, "Write the body as binary STL (mm)");
   command->add_option("--base", arguments->base_mm, "Bottom below the lowest point, mm")->capture_default_str();
@@ -223,13 +227,15 @@ CommandResult studyCommand(const CalibrationStudyArguments& a, JobContext& job) 
               {"scan_model", std::string(toString(scans.scan_model))},
               {"scans", nlohmann::json::array()}};
   out.summary = fmt::format(
-      "change of the six errors by calibration errors of {:g} rad and {:g} mm (standard deviation), {} trials a scan\n "
+      "change of the six errors by calibration errors of {:g} µrad and {:g} mm (standard deviation), {} trials per "
+      "scan\n "
       " {:<12} {:<8}  {:>9} {:>9} {:>9} µm  {:>9} {:>9} {:>9} µrad\n",
-      a.options.angle_sigma_rad, a.options.length_sigma_mm, a.options.trials, "scan", "", "EX", "EY", "EZ", "EA", "EB",
-      "EC");
+      printed(a.options.angle_sigma_rad * urad_per_rad), printed(a.options.length_sigma_mm), a.options.trials, "scan",
+      "", "EX", "EY", "EZ", "EA", "EB", "EC");
   const auto row = [&out](const std::string& name, const char* what, const std::array<double, 6>& v) {
-    out.summary += fmt::format("  {:<12} {:<8}  {:>9.3g} {:>9.3g} {:>9.3g}     {:>9.3g} {:>9.3g} {:>9.3g}\n", name,
-                               what, v[0], v[1], v[2], v[3], v[4], v[5]);
+    out.summary +=
+        fmt::format("  {:<12} {:<8}  {:>9.3g} {:>9.3g} {:>9.3g}     {:>9.3g} {:>9.3g} {:>9.3g}\n", name, what,
+                    printed(v[0]), printed(v[1]), printed(v[2]), printed(v[3]), printed(v[4]), printed(v[5]));
   };
   const auto named = [](const std::array<double, 6>& v) {
     nlohmann::json j = nlohmann::json::object();
@@ -289,11 +295,11 @@ void addStudy(CLI::App& app, CommandLine& line) {
       ->check(nonNegativeNumber())
       ->capture_default_str();
   command->add_option("--trials", a->options.trials, "Number of trials per scan")
-      ->check(CLI::Range(10, 10000000))
+      ->check(numberBetween(10, 10000000))
       ->capture_default_str();
   command->add_option("--seed", a->options.seed, "Random seed of the trials")->capture_default_str();
   command->add_option("--scan-model", a->scan_model, "rigid or push_broom, in place of the machine file")
-      ->check(CLI::IsMember({"rigid", "push_broom"}));
+      ->check(oneOf({"rigid", "push_broom"}));
 }
 
 }  // namespace

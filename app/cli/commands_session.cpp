@@ -115,7 +115,7 @@ void addSessionCommands(CLI::App& app, CommandLine& line) {
           "compensation; results that are still current are used again. \"simulation\" runs the programs that "
           "the simulator names; \"outdated\" runs every task, but that one, whose result is not current any more")
       ->type_name("TASK")
-      ->check(CLI::IsMember(allowed));
+      ->check(oneOf(allowed));
 }
 
 }  // namespace spindrift::cli

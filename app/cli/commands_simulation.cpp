@@ -120,7 +120,7 @@ void addSimulationCommands(CLI::App& app, CommandLine& line) {
       ->type_name("STORY");
   command->add_option("--out", arguments->out, "Folder of the campaign: new or empty")->required()->type_name("DIR");
   command->add_option("--seed", arguments->seed, "Random seed, instead of that of the scenario")
-      ->check(CLI::NonNegativeNumber)
+      ->check(nonNegativeNumber())
       ->each([arguments](const std::string&) { arguments->has_seed = true; });
   command
       ->add_option(

@@ -160,10 +160,10 @@ void addTeachingCommands(CLI::App& app, CommandLine& line) {
                        "Campaign of an exercise; without --answer and --hints: list the effects to choose from");
   exercise->add_option("--out", arguments->out, "Folder of a new exercise: new or empty")->type_name("DIR");
   exercise->add_option("--seed", arguments->seed, "Random seed: selects the exercise")
-      ->check(CLI::NonNegativeNumber)
+      ->check(nonNegativeNumber())
       ->capture_default_str();
   exercise->add_option("--level", arguments->level, "Number of hidden effects (1, 2, 3), their size and the noise")
-      ->check(CLI::IsMember({"easy", "medium", "hard"}))
+      ->check(oneOf({"easy", "medium", "hard"}))
       ->capture_default_str();
   exercise
       ->add_option("--answer", arguments->answers,
@@ -175,7 +175,7 @@ void addTeachingCommands(CLI::App& app, CommandLine& line) {
       ->add_option("--hints", arguments->hints,
                    "Number of hints to show, or to count as used: components, drivers, "
                    "families; each costs 10 marks")
-      ->check(CLI::Range(0, exercise_hints))
+      ->check(numberBetween(0, exercise_hints))
       ->type_name("N");
   exercise->add_flag("--searched", arguments->searched, "The search was run before the answer: half the marks");
   exercise->add_flag("--search", arguments->search, "After the answer, run the search and show what it names");

@@ -102,11 +102,11 @@ void addIdentify(CLI::App& parent, CommandLine& line) {
                    "response (time constants of every input, averaged priors), arx or oe; default: arx with --order, "
                    "else chosen by free runs inside the training range among straight lines, few time constants, ridge "
                    "regression and response")
-      ->check(CLI::IsMember({"response", "arx", "oe"}));
+      ->check(oneOf({"response", "arx", "oe"}));
   command
       ->add_option("--temperature-unit", a->request.temperature_unit,
                    "Unit of all temperature columns, in place of their names")
-      ->check(CLI::IsMember({"degC", "K", "degF"}));
+      ->check(oneOf({"degC", "K", "degF"}));
   command->add_flag(
       "--peers", a->request.peers,
       "Compare with two simple dynamic models: first-order ARX on two inputs, ridge regression on delayed inputs");
@@ -151,8 +151,8 @@ void addTrack(CLI::App& parent, CommandLine& line) {
       ->required();
   command
       ->add_option("--update", a->update,
-                   "gain: measured / simulated (P2); arx: state set to the measurement; kalman: gain and offset")
-      ->check(CLI::IsMember({"gain", "arx", "kalman"}))
+                   "gain: measured / simulated; arx: state set to the measurement; kalman: gain and offset")
+      ->check(oneOf({"gain", "arx", "kalman"}))
       ->capture_default_str();
   command->add_option("--interval", a->request.interval_s, "Time between two on-machine measurements in s")
       ->required()
@@ -246,7 +246,7 @@ void addIso230(CLI::App& parent, CommandLine& line) {
   command
       ->add_option("--test", a->request.test, "etve: environment; spindle: rotating spindle; axis: moving linear axis")
       ->required()
-      ->check(CLI::IsMember({"etve", "spindle", "axis"}));
+      ->check(oneOf({"etve", "spindle", "axis"}));
   command->add_option("--columns", a->columns,
                       "Displacements and tilts, separated by commas; default: all _um and _urad columns");
   command->add_option("--ambient", a->request.ambient, "Column of the ambient temperature (etve)");
@@ -255,7 +255,7 @@ void addIso230(CLI::App& parent, CommandLine& line) {
   command
       ->add_option("--fraction", a->request.fraction,
                    "Fraction of the final value at which the time is reported (spindle)")
-      ->check(CLI::Range(0.01, 0.99))
+      ->check(numberBetween(0.01, 0.99))
       ->capture_default_str();
   command
       ->add_option("--window", a->request.window_s,

@@ -8,6 +8,7 @@
 #include "app/cli/picture_files.h"
 #include "core/base/atomic_file.h"
 #include "core/base/error.h"
+#include "core/base/printed_number.h"
 #include "core/base/text.h"
 #include "core/thermal/input_selection.h"
 #include "core/workflows/thermal_replay.h"
@@ -131,7 +132,7 @@ void addClusters(CLI::App& parent, CommandLine& line) {
           result.json["groups"].push_back(
               {{"sensors", c.names}, {"mean_change_K", c.mean_change}, {"representative", c.representative}});
           result.summary += fmt::format("{} sensors, mean change {:.2f} K, represented by {}: {}\n", c.names.size(),
-                                        c.mean_change, c.representative, joinedList(c.names));
+                                        printed(c.mean_change), c.representative, joinedList(c.names));
         }
         result.json["notes"] = series.notes;
         for (const std::string& n : series.notes) result.summary += "note: " + n + "\n";

@@ -70,7 +70,7 @@ int main(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);  // help, version
-    std::string sentence = error.what();
+    std::string sentence = spindrift::cli::usageSentence(app, error);
     if (argc > 1 && argv[1][0] != '-' && !knows(app, argv[1]))
       sentence = "\"" + std::string(argv[1]) + "\" is not a command; allowed: those that --help lists.";
     std::cerr << "spindrift-cli: " << sentence << '\n';

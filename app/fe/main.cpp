@@ -27,7 +27,7 @@ int main(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);  // help, version
-    std::cerr << "spindrift-fe: " << error.what() << '\n';
+    std::cerr << "spindrift-fe: " << spindrift::cli::usageSentence(app, error) << '\n';
     return spindrift::cli::BadInput;
   }
   return spindrift::cli::runSelected(line);

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "core/base/json_reader.h"
+#include "core/base/printed_number.h"
 #include "core/base/text.h"
 #include "core/base/unit_text.h"
 #include "core/discrepancy/discrepancy.h"
@@ -158,26 +159,26 @@ std::string DiscrepancyResult::summary() const {
   for (const FoundEffect& e : effects) {
     text += fmt::format("  {}  {}\n    {}\n", e.id, e.title.empty() ? effectTitle(e.id) : e.title,
                         driversInWords(e.drivers));
-    text += fmt::format("    confidence {:.2f}, gain in BIC {:.0f}, held-out rms {:.2f} -> {:.2f} {}\n", e.confidence,
-                        e.delta_bic, e.heldout_rms_before_um, e.heldout_rms_after_um, unit);
-    if (!e.rivals.empty()) text += fmt::format("    cannot be told from {}\n", joinedList(e.rivals, "or"));
+    text += fmt::format("    confidence {:.2f}, gain in BIC {:.0f}, held-out rms {:.2f} → {:.2f} {}\n", e.confidence,
+                        printed(e.delta_bic), e.heldout_rms_before_um, e.heldout_rms_after_um, unit);
+    if (!e.rivals.empty()) text += fmt::format("    cannot be distinguished from {}\n", joinedList(e.rivals, "or"));
     for (const FittedParameter& p : e.parameters) {
       text += fmt::format("    {}: {}\n", parameterTitle(p.name), withUncertainty(p.value, p.standard_uncertainty, ""));
     }
   }
   for (const DisagreementPlace& p : where) {
-    text += fmt::format("  where: {} {} from {:.0f} s to {:.0f} s{}: {:.2f} {} beyond the noise (p {})\n",
-                        toString(p.component), shortenedList(p.points, 12), p.from_s, p.to_s,
-                        p.condition.empty() ? "" : ", " + p.condition, p.excess_um, printedUnit(unitOf(p.component)),
-                        p.p_value < 1e-12 ? std::string("< 1e-12") : fmt::format("{:.1e}", p.p_value));
+    text += fmt::format("  where: {} {} from {:.2f} h to {:.2f} h{}: {:.2f} {} beyond the noise ({})\n",
+                        toString(p.component), shortenedList(p.points, 12), printed(p.from_s / 3600.0),
+                        printed(p.to_s / 3600.0), p.condition.empty() ? "" : ", " + p.condition, p.excess_um,
+                        printedUnit(unitOf(p.component)), pValueText(p.p_value));
   }
   text += fmt::format("  gap: {:.2f} {} before, {:.2f} {} after, noise {:.2f} {}\n", gap.rms_before_um, unit,
                       gap.rms_after_um, unit, gap.noise_um, unit);
   if (!leftover.empty()) text += fmt::format("  remains: {}\n", leftover);
   if (suggestion) {
     text += fmt::format(
-        "  measure next, to tell {}: {}. Expected probability that the right one stands alone then {:.2f} (most "
-        "probable one now {:.2f})\n",
+        "  measure next, to distinguish {}: {}. Expected probability of a unique result afterwards {:.2f} (most "
+        "probable effect now {:.2f})\n",
         suggestion->separates, suggestion->conditions, suggestion->probability_alone_expected,
         suggestion->probability_alone_now);
   }

@@ -394,7 +394,7 @@ Judgement judge(const ResidualProblem& problem, const EffectSearch& search, cons
     }
     DiscrepancyStep step{effect.id, true, slot.delta_evidence, slot.delta_chi2, ""};
     if (name.forced) {
-      step.reason = slot.delta_evidence > 0.0 ? "put in by you" : "put in by you; the data do not support it";
+      step.reason = slot.delta_evidence > 0.0 ? "added by the user" : "added by the user; the data do not support it";
       if (!(slot.delta_evidence > 0.0)) {
         out.warnings.push_back(fmt::format("{} was accepted by hand; the data do not support it.", effect.id));
       }
@@ -458,7 +458,7 @@ Judgement judge(const ResidualProblem& problem, const EffectSearch& search, cons
       return std::find(rivals.begin(), rivals.end(), other.id) != rivals.end();
     });
     if (out.names[k].forced || same == out.names.end()) continue;
-    takeBack(k, fmt::format("{}, which is named, in a course of its own would explain it as well", same->id));
+    takeBack(k, fmt::format("{}, already named, would explain it equally well with a separate time history", same->id));
   }
   // What stands only beside those that were taken out has nothing to stand on.
   while (terms.size() < fit.terms.size()) {

@@ -11,6 +11,7 @@
 #include <unordered_map>
 
 #include "core/base/json_reader.h"
+#include "core/base/printed_number.h"
 #include "core/base/text.h"
 #include "core/discrepancy/effect_titles.h"
 
@@ -322,9 +323,10 @@ void OwnEffects::check(std::vector<Effect>& effects, const std::vector<Observati
           throw InputError(
               wrong->place,
               fmt::format("expression \"{}\" of {} is {} at point {} (x {:g} mm, y {:g} mm, z {:g} mm, c "
-                          "{:g} deg); allowed: expressions that are finite at every point observed.",
+                          "{:g}°); allowed: expressions that are finite at every point observed.",
                           wrong->value.text(), toString(o.component), std::isnan(value) ? "not a number" : "infinite",
-                          o.point, o.position_mm.x(), o.position_mm.y(), o.position_mm.z(), o.c_deg));
+                          o.point, printed(o.position_mm.x()), printed(o.position_mm.y()), printed(o.position_mm.z()),
+                          printed(o.c_deg)));
         }
         // What is left of a zero by rounding, as sin(pi), is none.
         if (std::abs(value) > 1e-12 && o.use == ObservationUse::Fit) seen = true;

@@ -14,6 +14,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/base/printed_number.h"
 #include "core/base/random.h"
 #include "core/discrepancy/drivers.h"
 #include "core/discrepancy/places.h"
@@ -248,7 +249,9 @@ class Scan {
         const double plane = low + part * span;
         for (const bool above : {true, false}) {
           for (const Component c : all_components) {
-            add(c, "", fmt::format("{} {} {:.0f} mm", "xyz"[axis], above ? "above" : "below", plane), [&](Index u) {
+            const std::string side = above ? fmt::format("{} above {:.0f} mm", "xyz"[axis], printed(plane))
+                                           : fmt::format("{} below {:.0f} mm", "xyz"[axis], printed(plane));
+            add(c, "", side, [&](Index u) {
               return (problem_->place[static_cast<std::size_t>(u)].position_mm[axis] > plane) == above;
             });
           }

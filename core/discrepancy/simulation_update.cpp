@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/json_reader.h"
+#include "core/base/printed_number.h"
 #include "core/base/text.h"
 #include "core/discrepancy/into_simulation.h"
 
@@ -125,8 +126,8 @@ std::string SimulationUpdate::summary() const {
   for (const FittedSimulatorParameter& p : parameters) {
     if (p.no_influence) continue;
     text += fmt::format("  {:<14} {}  (before {:g}{})\n", p.parameter.name,
-                        withUncertainty(p.value, p.standard_uncertainty, p.parameter.printedUnit()), p.parameter.value,
-                        p.put_in ? ", put in" : "");
+                        withUncertainty(p.value, p.standard_uncertainty, p.parameter.printedUnit()),
+                        printed(p.parameter.value), p.put_in ? ", put in" : "");
   }
   for (const std::string& warning : warnings) text += fmt::format("  note: {}\n", warning);
   return text;

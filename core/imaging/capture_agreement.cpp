@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/printed_number.h"
 #include "core/base/units.h"
 #include "core/imaging/axis_directions.h"
 #include "core/imaging/decoder.h"
@@ -40,8 +41,7 @@ std::string nameOf(const SeenCapture& c) {
 
 /// One decimal at most, without minus zero.
 std::string degrees(double value_deg) {
-  const double rounded = std::round(10.0 * value_deg) / 10.0;
-  return fmt::format("{:g}", rounded == 0.0 ? 0.0 : rounded);
+  return printedNumber(std::round(10.0 * value_deg) / 10.0, "g");
 }
 
 /// How far the spindle turned from `from` to `to`, as the images show it.
@@ -110,7 +110,7 @@ std::string sentenceOf(const SeenCapture& seen, const SeenCapture& other, const 
   if (c.verdict == Verdict::Turn) {
     const double commanded = seen.spindle_deg - other.spindle_deg;
     const double shown = commanded + std::remainder(turned_deg(other, seen) - commanded, 360.0);
-    return fmt::format("The image is turned by {} deg, {} {} deg (against {} of {} in {}).", degrees(shown),
+    return fmt::format("The image is turned by {}°, {} {}° (against {} of {} in {}).", degrees(shown),
                        options.commanded, degrees(commanded), nameOf(other), other.fiducial, other.state);
   }
   const std::string sentence =

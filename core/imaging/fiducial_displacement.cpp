@@ -9,6 +9,7 @@
 #include <map>
 #include <utility>
 
+#include "core/base/printed_number.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
 
@@ -171,8 +172,8 @@ void warnOfOrientations(const FiducialCaptureList& list, const FiducialImages& i
     const double difference = angleDifference(angle, reference);
     if (std::abs(difference) <= orientation_tolerance_rad) continue;
     out.warnings.push_back(fmt::format(
-        "{}: the images say that the spindle turned {:.1f} deg further than spindle_deg says between {} and {}.",
-        group.name(), -difference * deg_per_rad, list.captures[first].image, list.captures[i].image));
+        "{}: the images say that the spindle turned {:.1f}° further than spindle_deg says between {} and {}.",
+        group.name(), printed(-difference * deg_per_rad), list.captures[first].image, list.captures[i].image));
     return;
   }
 }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/printed_number.h"
 #include "core/probing/hole_cycle.h"
 
 namespace spindrift {
@@ -74,10 +75,10 @@ class Planner {
       const double high = std::max(axis->travel_mm[0], axis->travel_mm[1]);
       if (reference(k) < low || reference(k) > high) {
         throw InputError({machine_.file, ""},
-                         fmt::format("the cycle would send {} to {:.3f} mm ({}stylus {} at {} deg); allowed: {} to {} "
+                         fmt::format("the cycle would send {} to {:.3f} mm ({}stylus {} at {}°); allowed: {} to {} "
                                      "mm.",
-                                     axis->name, reference(k), m.feature.empty() ? "" : m.feature + ", ", m.stylus,
-                                     m.c_deg, low, high));
+                                     axis->name, printed(reference(k)), m.feature.empty() ? "" : m.feature + ", ",
+                                     m.stylus, printed(m.c_deg), printed(low), printed(high)));
       }
     }
     plan_.moves.push_back(m);
@@ -183,7 +184,10 @@ void planBalls(const MachineDescription& machine, const Artefact& artefact, cons
         for (const double sign : {-1.0, 1.0}) {
           if (k == blocked && sign == blocked_sign) continue;
           const bool below = k == 2 && sign < 0.0;
-          if (below && !options.touch_from_below) continue;
+          if (below && !options.touch_from_below) {
+            ++plan.left_out_below;
+            continue;
+          }
           const Eigen::Vector3d n = -sign * Eigen::Vector3d::Unit(k);
           const Eigen::Vector3d start = centre - (stand_off + options.clearance_mm) * n;
           Eigen::Vector3d down = start;  // where the stylus comes down: beside the ball on the side of its shaft

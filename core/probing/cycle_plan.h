@@ -56,6 +56,7 @@ struct CyclePlan {
   std::vector<PlannedMove> moves;
   double safe_height_mm = 0.0;  ///< of the tip, for the stylus that hangs lowest
   int touches = 0;
+  int left_out_below = 0;  ///< touches of balls from below: a stem may be there (touch_from_below)
 };
 
 /// Plan for a hole bar (P1: all holes at 0 deg, the reference hole at 90 and 270, three holes at 180) or a ball

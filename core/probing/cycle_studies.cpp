@@ -211,18 +211,22 @@ ReferenceComparison compareWithReference(const CycleEvaluation& evaluation, cons
   std::vector<double> probe;
   std::vector<double> reference;
   std::vector<double> difference;
-  int inside = 0;
+  std::size_t inside = 0;
   for (auto& point : comparison.points) {
     point.reference += comparison.offset;
     point.difference = point.probe - point.reference;
-    if (std::abs(point.difference) <= 2.0 * point.standard_uncertainty) ++inside;
+    if (point.standard_uncertainty > 0.0) {
+      ++comparison.judged;
+      if (std::abs(point.difference) <= 2.0 * point.standard_uncertainty) ++inside;
+    }
     comparison.largest = std::max(comparison.largest, std::abs(point.difference));
     probe.push_back(point.probe);
     reference.push_back(point.reference);
     difference.push_back(point.difference);
   }
   comparison.rms = rootMeanSquare(difference);
-  comparison.within_two_sigma = inside / n;
+  comparison.within_two_sigma =
+      comparison.judged > 0 ? static_cast<double>(inside) / static_cast<double>(comparison.judged) : std::nan("");
   comparison.fit_percent = fitPercent(reference, probe);
   const double mean_probe = mean(probe);
   const double mean_reference = mean(reference);

@@ -66,7 +66,10 @@ struct ReferenceComparison {
   double largest = 0.0;
   double correlation = 0.0;
   double fit_percent = 0.0;
-  double within_two_sigma = 0.0;  ///< share of cycles
+  /// Cycles with an uncertainty. That of the first cycle is none where the record has none either: its parameters are
+  /// zero by definition, so that it neither agrees nor disagrees.
+  std::size_t judged = 0;
+  double within_two_sigma = 0.0;  ///< share of those; NaN without any
 };
 /// Reads the record and compares it with `parameter`. Throws InputError: unreadable, unknown parameter.
 [[nodiscard]] ReferenceComparison compareWithReference(const CycleEvaluation& evaluation, const std::string& parameter,

@@ -9,16 +9,12 @@
 #include "core/base/count_text.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
+#include "core/machine/parameter_meanings.h"
 #include "core/math/statistics.h"
 #include "core/probing/closed_forms.h"
 
 namespace spindrift {
 namespace {
-
-std::string unitOfName(const std::string& name) {
-  if (name.ends_with("_um_per_m")) return "um/m";
-  return name.ends_with("_urad") ? "urad" : "um";
-}
 
 void addCommon(const CycleEvaluation& evaluation, const TouchEvaluation& all, const MachineDescription& machine,
                InstrumentEvaluation& out) {
@@ -57,12 +53,12 @@ void addCommon(const CycleEvaluation& evaluation, const TouchEvaluation& all, co
   out.summary += fmt::format("in {} since {}:\n", evaluation.cycles[last], evaluation.cycles.front());
   for (std::size_t p = 0; p < evaluation.names.size(); ++p) {
     const CycleParameter& parameter = evaluation.parameters[last][p];
-    const std::string unit = unitOfName(evaluation.names[p]);
-    const std::string name = evaluation.names[p].substr(0, evaluation.names[p].find('_'));
+    const ErrorParameter known = describedParameter(evaluation.names[p]);
     out.summary +=
-        fmt::format("  {:5} {}\n", name,
-                    parameter.determined ? withUncertainty(parameter.value, parameter.standard_uncertainty, unit)
-                                         : std::string("not determined"));
+        fmt::format("  {:<5} {:<18} {}\n", known.symbol,
+                    parameter.determined ? withUncertainty(parameter.value, parameter.standard_uncertainty, known.unit)
+                                         : std::string("not determined"),
+                    known.meaning);
   }
 }
 

@@ -289,8 +289,7 @@ constexpr Eigen::Index eme = 8;  ///< growth of the bar among the parameters
   const double expected_sigma = worst_cycle->expected_sigma_um_per_m;
   result.warnings.push_back(fmt::format(
       "{} seems to have grown by {} in {}, but its expansion coefficient and temperature say {}: the axis that "
-      "measures "
-      "it grows as well, its coefficient is another, or the sensor is not on it.",
+      "measures it grows as well, the expansion coefficient is wrong, or the sensor is not on the artefact.",
       artefact.id, withUncertainty(worst_cycle->measured_um_per_m, worst_cycle->measured_sigma_um_per_m, "um/m"),
       worst_cycle->cycle,
       expected_sigma > 0.0 ? withUncertainty(worst_cycle->expected_um_per_m, expected_sigma, "um/m")

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "core/base/error.h"
+#include "core/base/printed_number.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
 #include "core/probing/hole_cycle.h"
@@ -352,7 +353,7 @@ LiveProgress LiveTouches::progress() const {
     const Touch& t = found->second;
     progress.next = fmt::format("{}, touch {}", t.feature, t.touch);
     if (machine_.styli.size() > 1) progress.next += fmt::format(" with {}", t.stylus);
-    if (t.c_deg != 0.0 || last.c_deg != 0.0) progress.next += fmt::format(" at {:g} deg", t.c_deg);
+    if (t.c_deg != 0.0 || last.c_deg != 0.0) progress.next += fmt::format(" at {:g}°", printed(t.c_deg));
     break;
   }
   return progress;
@@ -374,7 +375,7 @@ std::vector<std::string> LiveTouches::retakes() const {
     const Touch& t = live->touch;
     std::string where = fmt::format("{}, {}", t.cycle, t.feature);
     if (machine_.styli.size() > 1) where += " with " + t.stylus;
-    if (t.c_deg != 0.0) where += fmt::format(" at {:g} deg", t.c_deg);
+    if (t.c_deg != 0.0) where += fmt::format(" at {:g}°", printed(t.c_deg));
     sentences.push_back(fmt::format("Touch {} again, touch{} {}: {}.", where, numbers.size() > 1 ? "es" : "",
                                     joinedList(numbers), live->reason));
   }

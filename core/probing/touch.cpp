@@ -10,6 +10,7 @@
 
 #include "core/base/atomic_file.h"
 #include "core/base/csv.h"
+#include "core/base/printed_number.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
 
@@ -115,8 +116,8 @@ TouchList TouchList::parse(std::string text, const std::filesystem::path& file) 
       throw InputError(
           table.place(row),
           fmt::format(
-              "duplicate touch {} of {} with stylus {} at {} deg in cycle {}; allowed: every touch of a cycle once.",
-              t.touch, t.feature, t.stylus, t.c_deg, t.cycle));
+              "duplicate touch {} of {} with stylus {} at {}° in cycle {}; allowed: every touch of a cycle once.",
+              t.touch, t.feature, t.stylus, printed(t.c_deg), t.cycle));
     }
     t.line = table.place(row).line;
     list.touches.push_back(std::move(t));

@@ -8,7 +8,7 @@
 #include "core/base/text.h"
 #include "core/base/units.h"
 #include "core/machine/driver_words.h"
-#include "core/reporting/parameter_meanings.h"
+#include "core/machine/parameter_meanings.h"
 #include "core/reporting/plot_picture.h"
 #include "core/reporting/report_parts.h"
 #include "core/reporting/report_wording.h"

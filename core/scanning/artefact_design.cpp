@@ -14,6 +14,7 @@
 #include <limits>
 
 #include "core/base/atomic_file.h"
+#include "core/base/printed_number.h"
 #include "core/base/units.h"
 #include "core/machine/component.h"
 
@@ -78,14 +79,14 @@ void ArtefactDesignOptions::validate() const {
   constexpr double least_um = 1e-6;
   constexpr double most_um = 1e6;
   if (!(noise_um >= least_um && noise_um <= most_um))
-    throw InputError(
-        fmt::format("Noise of the profiler: found {} µm; allowed: {:g} to {:g}.", noise_um, least_um, most_um));
+    throw InputError(fmt::format("Noise of the profiler: found {} µm; allowed: {:g} to {:g}.", printed(noise_um),
+                                 printed(least_um), printed(most_um)));
   constexpr double most_points = 1e12;
   if (!(point_count >= 100.0 && point_count <= most_points))
-    throw InputError(
-        fmt::format("Number of points of a scan: found {}; allowed: 100 to {:g}.", point_count, most_points));
+    throw InputError(fmt::format("Number of points of a scan: found {}; allowed: 100 to {:g}.", printed(point_count),
+                                 printed(most_points)));
   if (!(steepest_slope > 0.0))
-    throw InputError(fmt::format("Steepest slope: found {}; allowed: more than 0.", steepest_slope));
+    throw InputError(fmt::format("Steepest slope: found {}; allowed: more than 0.", printed(steepest_slope)));
   if (drift_order < 0 || drift_order > 2)
     throw InputError(fmt::format("Order of the drift: found {}; allowed: 0 to 2.", drift_order));
   if (!(weak_ratio > 1.0)) throw InputError("The ratio that makes a direction weak must be more than 1.");
@@ -195,11 +196,12 @@ void writeArtefactStl(const std::filesystem::path& file, const ArtefactSurface& 
                       double step_mm) {
   surface.validate();
   if (!(base_mm > 0.0) || !std::isfinite(base_mm))
-    throw InputError(fmt::format("Base below the lowest point: found {} mm; allowed: more than 0.", base_mm));
+    throw InputError(fmt::format("Base below the lowest point: found {} mm; allowed: more than 0.", printed(base_mm)));
   const double longest = surface.size_mm.maxCoeff();
   if (!(step_mm >= longest / 2000.0) || !(step_mm <= surface.size_mm.minCoeff() / 2.0))
     throw InputError(fmt::format("Facets of the STL: found {} mm; allowed: {:.3g} to {:.3g} mm for this artefact.",
-                                 step_mm, longest / 2000.0, surface.size_mm.minCoeff() / 2.0));
+                                 printed(step_mm), printed(longest / 2000.0),
+                                 printed(surface.size_mm.minCoeff() / 2.0)));
   const int columns = static_cast<int>(std::ceil(surface.size_mm.x() / step_mm));
   const int rows = static_cast<int>(std::ceil(surface.size_mm.y() / step_mm));
   std::vector<Eigen::Vector3d> top;

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "core/base/error.h"
+#include "core/base/printed_number.h"
 
 namespace spindrift {
 
@@ -44,7 +45,8 @@ void ArtefactSurface::validate() const {
   constexpr double most_per_mm = 1e4;
   const auto require = [](std::string_view what, double value, double least, double most, std::string_view unit) {
     if (!(value >= least && value <= most))
-      throw InputError(fmt::format("{}: found {} {}; allowed: {:g} to {:g}.", what, value, unit, least, most));
+      throw InputError(fmt::format("{}: found {} {}; allowed: {:g} to {:g}.", what, printed(value), unit,
+                                   printed(least), printed(most)));
   };
   require("Size of the artefact in x", size_mm.x(), least_mm, most_mm, "mm");
   require("Size of the artefact in y", size_mm.y(), least_mm, most_mm, "mm");

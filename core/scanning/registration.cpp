@@ -249,9 +249,9 @@ RegistrationResult registerCells(const PointCloud& source, const CellGrid& grid,
       best = merit;
     }
     if (best_kind >= 0)
-      return reject(
-          FitStatus::Rejected,
-          fmt::format("The scan is {}: that way it fits the reference, as it stands it does not.", kinds[best_kind]));
+      return reject(FitStatus::Rejected,
+                    fmt::format("The scan is {}: it matches the reference only after this transformation is undone.",
+                                kinds[best_kind]));
   }
   if (!fitting) {
     if (o.cells.size() < 12) return reject(FitStatus::Rejected, "The scan and the reference have no common region.");

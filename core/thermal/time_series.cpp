@@ -13,6 +13,7 @@
 #include "core/base/text.h"
 #include "core/machine/log_table.h"
 #include "core/math/statistics.h"
+#include "core/thermal/output_unit.h"
 
 namespace spindrift {
 namespace {
@@ -107,6 +108,13 @@ std::string_view toString(SignalKind kind) noexcept {
       return "other";
   }
   return "other";
+}
+
+std::string outputUnit(std::string_view column) {
+  if (column.ends_with("_um_per_m")) return "um/m";
+  if (column.ends_with("_urad")) return "urad";
+  const SignalKind kind = signalKind(column, {});
+  return kind == SignalKind::Temperature ? "degC" : kind == SignalKind::Speed ? "rpm" : "um";
 }
 
 SignalKind signalKind(std::string_view name, std::span<const double> values) {

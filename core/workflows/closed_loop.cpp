@@ -217,7 +217,7 @@ class ClosedLoop {
     if (tool_ && state.tool != shown_tool_) {
       say(state.tool == *tool_
               ? fmt::format("tool {} is back in the spindle: measuring cycles go on", state.tool)
-              : fmt::format("tool {} is in the spindle: the compensation goes on, measuring cycles wait for tool {}",
+              : fmt::format("tool {} is in the spindle: the compensation continues, measuring cycles wait for tool {}",
                             state.tool, *tool_));
       shown_tool_ = state.tool;
     }
@@ -492,7 +492,7 @@ class ClosedLoop {
     }
     if (models_.begun()) models_.observations().write(folder_ / "observations.csv");
     ++result_.resumed;
-    say(fmt::format("the loop goes on with {} measuring cycles and {} rows of the log", result_.cycles.size(),
+    say(fmt::format("the loop continues with {} measuring cycles and {} rows of the log", result_.cycles.size(),
                     models_.times().size()));
   }
 
@@ -528,7 +528,8 @@ class ClosedLoop {
       }
       if (channel_.written_um().isZero(1e-6)) say("the compensation is at zero");
     } catch (const ConnectionError& error) {
-      say(std::string("the control was lost while the compensation faded; its watchdog goes on: ") + error.what());
+      say(std::string("the control was lost while the compensation faded; its watchdog continues the fade: ") +
+          error.what());
     }
   }
 

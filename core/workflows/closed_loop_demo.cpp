@@ -327,8 +327,8 @@ std::string loopDemoSummary(const nlohmann::json& json) {
     for (const char* name : {"EX", "EY", "EZ"}) {
       const double without = stage["rms_without_um"][name].get<double>();
       const double with = stage["rms_with_um"][name].get<double>();
-      out += fmt::format(" {} {:.1f} -> {:.1f} µm ({:.0f} %)", name, without, with,
-                         100.0 * with / std::max(1e-9, without));
+      out +=
+          fmt::format(" {} {:.1f} → {:.1f} µm ({:.0f} %)", name, without, with, 100.0 * with / std::max(1e-9, without));
     }
     out += "\n";
   }

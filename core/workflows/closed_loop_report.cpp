@@ -105,8 +105,7 @@ std::string LoopResult::summary() const {
     const Eigen::Vector3d before = rmsWithout(stage), after = rmsWith(stage);
     for (int axis = 0; axis < 3; ++axis) {
       if (std::isfinite(before[axis]))
-        out +=
-            fmt::format(" {} {:.1f} -> {:.1f} µm", toString(static_cast<Component>(axis)), before[axis], after[axis]);
+        out += fmt::format(" {} {:.1f} → {:.1f} µm", toString(static_cast<Component>(axis)), before[axis], after[axis]);
     }
     out += "\n";
   }

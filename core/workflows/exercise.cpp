@@ -445,7 +445,7 @@ std::string ExerciseScore::text() const {
     if (line.exact) {
       if (!line.hidden.drivers.empty())
         out += line.driver_right ? "; driver right"
-                                 : fmt::format("; driven by {}", driversInWords(joinedList(line.hidden.drivers, "or")));
+                                 : fmt::format("; driver: {}", driversInWords(joinedList(line.hidden.drivers, "or")));
       out += fmt::format("; size {:.1f} ± {:.1f} {} in {}", line.size().value, line.size().uncertainty,
                          printedUnit(unitOf(line.size().component)), toString(line.size().component));
       if (line.size_named)

@@ -6,8 +6,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/error.h"
 #include "core/base/json_reader.h"
+#include "core/base/printed_number.h"
 #include "core/base/text.h"
+#include "core/machine/parameter_meanings.h"
 
 namespace spindrift {
 namespace {
@@ -23,13 +26,8 @@ std::vector<std::string> namesOf(const std::vector<int>& parameters) {
   return names;
 }
 
-/// "EX_um" -> "EX".
-std::string symbolOf(int i) {
-  const std::string_view name = nine_parameter_names[static_cast<std::size_t>(i)];
-  for (const std::string_view unit : {"_um_per_m", "_urad", "_um"}) {
-    if (name.ends_with(unit)) return std::string(name.substr(0, name.size() - unit.size()));
-  }
-  return std::string(name);
+ErrorParameter parameterOf(int i) {
+  return describedParameter(nine_parameter_names[static_cast<std::size_t>(i)]);
 }
 
 }  // namespace
@@ -85,10 +83,12 @@ std::string summaryOf(const NineParameterFit& fit) {
           ? fmt::format("nine-parameter model of state {}\n", fit.state)
           : fmt::format("nine-parameter model of the change from state {} to {}\n", fit.reference_state, fit.state);
   for (int i = 0; i < nine_parameter_count; ++i) {
-    text += fmt::format("  {:<9}{}\n", symbolOf(i),
-                        fit.determined(i)
-                            ? withUncertainty(fit.parameters(i), fit.standardUncertainty(i), nineParameterUnit(i))
-                            : "not determined");
+    const ErrorParameter parameter = parameterOf(i);
+    text +=
+        fmt::format("  {:<5} {:<18} {}\n", parameter.symbol,
+                    fit.determined(i) ? withUncertainty(fit.parameters(i), fit.standardUncertainty(i), parameter.unit)
+                                      : "not determined",
+                    parameter.meaning);
   }
   if (fit.rms_fit_um) text += fmt::format("rms of the fitted points {:.2f} µm\n", *fit.rms_fit_um);
   if (fit.rms_validation_um) text += fmt::format("rms of the validation points {:.2f} µm\n", *fit.rms_validation_um);
@@ -113,7 +113,7 @@ std::string summaryOf(const NineParameterFit& fit, const TableOrderChoice& choic
   for (std::size_t i = nine_parameter_count; i < names.size(); ++i) {
     const auto e = static_cast<Eigen::Index>(i);
     text +=
-        fmt::format("  {:<9}{}\n", names[i].substr(0, names[i].size() - 3),
+        fmt::format("  {:<5} {}\n", names[i].substr(0, names[i].size() - 3),
                     withUncertainty(choice.model->parameters()(e), std::sqrt(choice.model->covariance()(e, e)), "um"));
   }
   return text;
@@ -146,9 +146,10 @@ std::string summaryOf(const NineParameterComparison& comparison) {
     if (std::isfinite(sigma)) {
       // Parameters that rest on the same points in both sets are equal but for rounding.
       const bool equal = !(sigma > 1e-6 * comparison.a.standardUncertainty(i));
-      value = equal ? "equal" : withUncertainty(comparison.difference(i), sigma, nineParameterUnit(i));
+      value = equal ? "equal" : withUncertainty(comparison.difference(i), sigma, parameterOf(i).unit);
     }
-    text += fmt::format("  {:<9}{}{}\n", symbolOf(i), value, differs ? "   differs" : "");
+    text += fmt::format("  {:<5} {:<18} {}{}\n", parameterOf(i).symbol, value, parameterOf(i).meaning,
+                        differs ? ": differs" : "");
   }
   text += fmt::format("all together: {}; {}\n", pValueText(comparison.p_value_all),
                       comparison.p_value_all < 0.05 ? "the sets of points disagree beyond their uncertainty"
@@ -304,7 +305,8 @@ std::string PlacementAnswer::summary() const {
   std::string text = fmt::format("{} of {} positions{}, at least {:.3g} mm apart\n", result.chosen.size(), ids.size(),
                                  result.exhaustive ? ", all choices tried" : ", by exchange", result.least_distance_mm);
   for (const std::size_t i : result.chosen) {
-    text += fmt::format("  {:<8}x {:8.1f} mm   y {:8.1f} mm\n", ids[i], candidates_mm[i].x(), candidates_mm[i].y());
+    text += fmt::format("  {:<8}x {:8.1f} mm   y {:8.1f} mm\n", ids[i], printed(candidates_mm[i].x()),
+                        printed(candidates_mm[i].y()));
   }
   text += fmt::format("uncertainty of the prediction over the table: mean {:.2f} µm, largest {:.2f} µm\n",
                       result.mean_sigma_um, result.largest_sigma_um);

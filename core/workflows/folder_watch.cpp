@@ -82,8 +82,8 @@ std::vector<WatchedFile> FolderWatch::look(double now_s) {
   groups_ = 1 + known_.size() / looked_at_once;
   lookInto(folder_.native(), now_s, changes, error);
   if (error) {
-    problem_ =
-        fmt::format("{} cannot be read: {}. Capturing goes on when it is back.", folder_.string(), error.message());
+    problem_ = fmt::format("{} cannot be read: {}. Capturing continues when the folder is available again.",
+                           folder_.string(), error.message());
     return changes;
   }
   problem_.clear();

@@ -8,9 +8,9 @@
 #include "core/discrepancy/catalogue.h"
 #include "core/discrepancy/effect_listing.h"
 #include "core/machine/driver_words.h"
+#include "core/machine/parameter_meanings.h"
 #include "core/reporting/effect_drawing.h"
 #include "core/reporting/markdown_report.h"
-#include "core/reporting/parameter_meanings.h"
 #include "core/workflows/file_reference.h"
 
 namespace spindrift {

@@ -7,10 +7,10 @@
 #include <memory>
 
 #include "core/base/text.h"
+#include "core/machine/parameter_meanings.h"
 #include "core/reporting/campaign_report.h"
 #include "core/reporting/discrepancy_report.h"
 #include "core/reporting/heatmap_picture.h"
-#include "core/reporting/parameter_meanings.h"
 #include "core/reporting/plot_picture.h"
 #include "core/reporting/report_wording.h"
 #include "core/session/session.h"

@@ -8,6 +8,7 @@
 
 #include "core/base/error.h"
 #include "core/base/json_reader.h"
+#include "core/base/printed_number.h"
 #include "core/base/text.h"
 #include "core/base/unit_text.h"
 #include "core/math/statistics.h"
@@ -227,8 +228,9 @@ std::string ReplayResult::summary() const {
   for (std::size_t e = 0; e < errors.size(); ++e) {
     const AdaptiveErrorResult& r = run.errors[e];
     text += fmt::format("  {:<16} {:>14.2f} {:>11.2f} ({:>5.1f} %) {:>11.2f} ({:>5.1f} %) {}, limit {:.3g}\n", r.name,
-                        r.rms_uncompensated, r.rms_static, r.static_reduction_percent, r.rms_adaptive,
-                        r.adaptive_reduction_percent, printedUnit(units[e]), errors[e].action_limit);
+                        printed(r.rms_uncompensated), printed(r.rms_static), printed(r.static_reduction_percent),
+                        printed(r.rms_adaptive), printed(r.adaptive_reduction_percent), printedUnit(units[e]),
+                        printed(errors[e].action_limit));
   }
   text +=
       "  a reduction is positive where the rms became smaller, negative where compensating made it larger;\n"
@@ -237,7 +239,7 @@ std::string ReplayResult::summary() const {
   for (const ReplayPoint& p : curve) {
     text += fmt::format("  {:4} measurements", p.measurements);
     for (std::size_t e = 0; e < errors.size(); ++e)
-      text += fmt::format("{} {} {:.1f} %", e == 0 ? ":" : ",", errors[e].name, p.reduction_percent[e]);
+      text += fmt::format("{} {} {:.1f} %", e == 0 ? ":" : ",", errors[e].name, printed(p.reduction_percent[e]));
     text += p.scale == 0.0 ? " (static)\n" : fmt::format(" (limits times {:g})\n", p.scale);
   }
   std::size_t exceeded = 0;

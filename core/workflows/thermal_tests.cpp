@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "core/base/json_reader.h"
+#include "core/base/printed_number.h"
 #include "core/base/text.h"
 #include "core/machine/observation.h"
 #include "core/machine/operating_log.h"
@@ -223,7 +224,7 @@ std::string Iso230Result::summary() const {
     for (const EtveComponent& c : etve->components) {
       text +=
           fmt::format("  {}: range {}, per K {}, slope {}\n", c.name, withUncertainty(c.range, c.range_sigma, c.unit),
-                      std::isfinite(c.range_per_K) ? fmt::format("{:.3g}", c.range_per_K) : "not determined",
+                      std::isfinite(c.range_per_K) ? fmt::format("{:.3g}", printed(c.range_per_K)) : "not determined",
                       withUncertainty(c.slope_per_K, c.slope_sigma, c.unit + "/K"));
     }
   }
@@ -238,11 +239,13 @@ std::string Iso230Result::summary() const {
   }
   if (axis) {
     for (const AxisPositionResult* p : {&axis->low, &axis->high}) {
-      text += fmt::format("  at {:.6g} mm: change {}, range {:.2f} µm, repeatability {:.2f} µm\n", p->position_mm,
-                          withUncertainty(p->change_um, p->change_sigma_um, "um"), p->range_um, p->repeatability_um);
+      text +=
+          fmt::format("  at {:.6g} mm: change {}, range {:.2f} µm, repeatability {:.2f} µm\n", printed(p->position_mm),
+                      withUncertainty(p->change_um, p->change_sigma_um, "um"), p->range_um, p->repeatability_um);
     }
     text += fmt::format("  expansion {} ({:.2f} µm/m)\n",
-                        withUncertainty(axis->expansion_um, axis->expansion_sigma_um, "um"), axis->expansion_um_per_m);
+                        withUncertainty(axis->expansion_um, axis->expansion_sigma_um, "um"),
+                        printed(axis->expansion_um_per_m));
   }
   for (const std::string& n : notes) text += "note: " + n + "\n";
   return text;

@@ -10,6 +10,7 @@
 #include "core/base/atomic_file.h"
 #include "core/base/csv.h"
 #include "core/base/json_reader.h"
+#include "core/base/printed_number.h"
 #include "core/base/text.h"
 #include "core/base/unit_text.h"
 #include "core/math/statistics.h"
@@ -181,14 +182,15 @@ nlohmann::json TrackResult::json() const {
 
 std::string TrackResult::summary() const {
   std::string text = fmt::format("{} from {:.6g} s, {} measurements\n", output, from_s, run.events.size());
-  text += fmt::format("  without update: fit {:7.1f} %  p2p {:8.2f} {}  rms {:8.3f}\n", without.fit_percent,
-                      without.p2p, printedUnit(unit), without.rmse);
-  text += fmt::format("  with updates:   fit {:7.1f} %  p2p {:8.2f} {}  rms {:8.3f}\n", with.fit_percent, with.p2p,
-                      printedUnit(unit), with.rmse);
+  text += fmt::format("  without update: fit {:7.1f} %  p2p {:8.2f} {}  rms {:8.3f}\n", printed(without.fit_percent),
+                      printed(without.p2p), printedUnit(unit), printed(without.rmse));
+  text += fmt::format("  with updates:   fit {:7.1f} %  p2p {:8.2f} {}  rms {:8.3f}\n", printed(with.fit_percent),
+                      printed(with.p2p), printedUnit(unit), printed(with.rmse));
   for (const IntervalPoint& p : sweep) {
     text += std::isfinite(p.interval_s) ? fmt::format("  every {:4.0f} min", p.interval_s / 60.0)
                                         : std::string("  never         ");
-    text += fmt::format(": fit {:7.1f} %  p2p {:8.2f}  rms {:8.3f}\n", p.fit_percent, p.p2p, p.rms);
+    text += fmt::format(": fit {:7.1f} %  p2p {:8.2f}  rms {:8.3f}\n", printed(p.fit_percent), printed(p.p2p),
+                        printed(p.rms));
   }
   for (const std::string& n : notes) text += "note: " + n + "\n";
   return text;

@@ -10,7 +10,9 @@
 #include <set>
 
 #include "core/base/atomic_file.h"
+#include "core/base/count_text.h"
 #include "core/base/json_reader.h"
+#include "core/base/printed_number.h"
 #include "core/base/text.h"
 #include "core/base/unit_text.h"
 #include "core/math/distributions.h"
@@ -25,6 +27,14 @@
 
 namespace spindrift {
 namespace {
+
+/// How a model was found, in words.
+std::string_view kindInWords(std::string_view kind) {
+  if (kind == "arx") return "ARX model";
+  if (kind == "output_error") return "output-error model";
+  if (kind == "response") return "step-response model";
+  return "model of first-order time constants";
+}
 
 constexpr std::size_t sparse_minimum = 12;  ///< cycles in training: fewer determine no response
 
@@ -332,18 +342,19 @@ nlohmann::json IdentifyResult::json() const {
 
 std::string IdentifyResult::summary() const {
   const std::string unit = printedUnit(model.outputs.front().unit);
-  std::string text = fmt::format("{}: {} model with {} inputs ({})\n", model.outputs.front().name, model.kind,
-                                 inputs.size(), joinedList(inputs));
+  std::string text = fmt::format("{}: {} with {} ({})\n", model.outputs.front().name, kindInWords(model.kind),
+                                 countOf(inputs.size(), "input"), joinedList(inputs));
   const auto line = [&](const std::string& name, const RunQuality& a, const RunQuality& b) {
     text += fmt::format("  {:<42} train fit {:7.1f} %  rms {:8.3f}   test fit {:7.1f} %  rms {:8.3f}  p2p {:8.3f} {}\n",
-                        name, a.fit_percent, a.rmse, b.fit_percent, b.rmse, b.p2p, unit);
+                        name, printed(a.fit_percent), printed(a.rmse), printed(b.fit_percent), printed(b.rmse),
+                        printed(b.p2p), unit);
   };
   text += "free run (no measured output is used after training):\n";
   line("this model", train, test);
   for (const ModelComparison& p : plain) line(p.name, p.train, p.test);
   for (const MethodEvidence& m : methods)
     text += fmt::format("  method {:<9} rms of runs left out inside training {:8.3f}, share of the model {:3.0f} %\n",
-                        m.method, m.left_out_rms, 100.0 * m.weight);
+                        m.method, printed(m.left_out_rms), printed(100.0 * m.weight));
   for (const InputVerdict& v : verdicts)
     text += fmt::format("  {} {}: {}\n", v.kept ? "kept   " : "dropped", v.name, v.reason);
   const auto marked = static_cast<std::size_t>(std::count(outside.begin(), outside.end(), char{1}));

@@ -12,13 +12,14 @@
 #include "core/base/atomic_file.h"
 #include "core/base/error.h"
 #include "core/base/json_reader.h"
+#include "core/base/printed_number.h"
 #include "core/base/text.h"
 #include "core/base/unit_text.h"
 #include "core/discrepancy/catalogue.h"
 #include "core/discrepancy/effect_listing.h"
 #include "core/machine/campaign.h"
 #include "core/machine/driver_words.h"
-#include "core/reporting/parameter_meanings.h"
+#include "core/machine/parameter_meanings.h"
 #include "core/reporting/test_part_drawing.h"
 
 namespace spindrift {
@@ -517,33 +518,34 @@ std::string whatIfText(const WhatIf& what_if) {
     const WhatIfParameter& p = what_if.parameters()[i];
     if (what_if.value(i) == 0.0) continue;
     any = true;
-    out += fmt::format("  {} = {:g} {}  {}", p.id, what_if.value(i), gainUnit(p.unit), p.title);
+    out += fmt::format("  {} = {:g} {}  {}", p.id, printed(what_if.value(i)), gainUnit(p.unit), p.title);
     if (!p.geometric)
-      out += fmt::format(" ({}, {:g} {} per {})", p.driver, p.sensitivity, gainUnit(p.gain_unit), gainUnit(p.unit));
+      out += fmt::format(" ({}, {:g} {} per {})", p.driver, printed(p.sensitivity), gainUnit(p.gain_unit),
+                         gainUnit(p.unit));
     out += "\n";
   }
   if (!any) out += "  no error is set; --set NAME=VALUE sets one, --list lists all\n";
   out += fmt::format("\nProbing points{:>29}{:>10}{:>10}\n", "EX / µm", "EY / µm", "EZ / µm");
   const auto row = [&](const std::string& name, const WhatIfPlace& place) {
-    out += fmt::format("  {:<24}{:>16.2f}{:>10.2f}{:>10.2f}\n", name, place.deviation[0], place.deviation[1],
-                       place.deviation[2]);
+    out += fmt::format("  {:<24}{:>16.2f}{:>10.2f}{:>10.2f}\n", name, printed(place.deviation[0]),
+                       printed(place.deviation[1]), printed(place.deviation[2]));
   };
   for (const WhatIfPlace& place : found.points)
-    row(fmt::format("{} ({:.0f}, {:.0f}, {:.0f})", place.id, place.position_mm.x(), place.position_mm.y(),
-                    place.position_mm.z()),
+    row(fmt::format("{} ({:.0f}, {:.0f}, {:.0f})", place.id, printed(place.position_mm.x()),
+                    printed(place.position_mm.y()), printed(place.position_mm.z())),
         place);
   for (const WhatIfArtefact& artefact : found.artefacts) {
     if (artefact.kind == "fiducial_plate") continue;  // 25 rows: in the JSON
     out += fmt::format("\n{}{}, relative to {}", artefact.id, artefact.pose.empty() ? "" : ", " + artefact.pose,
                        artefact.reference);
-    if (artefact.along_um_per_m) out += fmt::format("; {:.1f} µm/m along it", *artefact.along_um_per_m);
+    if (artefact.along_um_per_m) out += fmt::format("; {:.1f} µm/m along it", printed(*artefact.along_um_per_m));
     out += "\n";
     for (const WhatIfPlace& place : artefact.features) row(place.id, place);
   }
   if (what_if.part() == nullptr) return out + "\n" + what_if.whyNoPart() + "\n";
   out += fmt::format("\nTest part of the kind of ISO 10791-7, side {:g} mm\n", what_if.part()->options().side_mm);
   for (const PartCharacteristic& c : found.part)
-    out += fmt::format("  {:<52}{:>10.2f} {}\n", characteristicText(c), c.value, printedUnit(c.unit));
+    out += fmt::format("  {:<52}{:>10.2f} {}\n", characteristicText(c), printed(c.value), printedUnit(c.unit));
   return out;
 }
 
@@ -552,7 +554,8 @@ std::string whatIfParametersText(const WhatIf& what_if) {
   for (const WhatIfParameter& p : what_if.parameters()) {
     out += fmt::format("{:<26} ±{:g} {}  {}", p.id, p.largest, gainUnit(p.unit), p.title);
     if (!p.geometric)
-      out += fmt::format("; {}, {:g} {} per {}", p.driver, p.sensitivity, gainUnit(p.gain_unit), gainUnit(p.unit));
+      out += fmt::format("; {}, {:g} {} per {}", p.driver, printed(p.sensitivity), gainUnit(p.gain_unit),
+                         gainUnit(p.unit));
     out += "\n";
   }
   return out;

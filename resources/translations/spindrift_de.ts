@@ -1765,8 +1765,8 @@
         <translation>Das Bild ist für seine Höhe von {:g} mm unscharf: Schärfe {:.3f}, {} von {} in {} hat dort {:.3f}.</translation>
     </message>
     <message>
-        <source>The image is turned by {} deg, {} {} deg (against {} of {} in {}).</source>
-        <translation>Das Bild ist um {} deg gedreht, {} {} deg (gegen {} von {} in {}).</translation>
+        <source>The image is turned by {}°, {} {}° (against {} of {} in {}).</source>
+        <translation>Das Bild ist um {}° gedreht, {} {}° (gegen {} von {} in {}).</translation>
     </message>
     <message>
         <source>The last line of {} was incomplete and was removed.</source>
@@ -2025,8 +2025,8 @@
         <translation>Der Scan ist fast eben: seine Höhen schwanken um {:.3g} mm um eine Ebene, die der Referenz um {:.3g} mm; eine andere Fläche oder keine.</translation>
     </message>
     <message>
-        <source>The scan is {}: that way it fits the reference, as it stands it does not.</source>
-        <translation>Der Scan ist {}: so passt er zur Referenz, wie er vorliegt nicht.</translation>
+        <source>The scan is {}: it matches the reference only after this transformation is undone.</source>
+        <translation>Der Scan ist {}: er passt erst zur Referenz, wenn diese Transformation rückgängig gemacht ist.</translation>
     </message>
     <message>
         <source>The scan shows no pocket: there is only one level, not a plate and a floor.</source>
@@ -3159,8 +3159,8 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>an den Validierungspunkten</translation>
     </message>
     <message>
-        <source>at {:g} deg</source>
-        <translation>bei {:g} deg</translation>
+        <source>at {:g}°</source>
+        <translation>bei {:g}°</translation>
     </message>
     <message>
         <source>at {}, held out</source>
@@ -3783,8 +3783,8 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Ausdruck „{}“ enthält „{}“ an Zeichen {}, das weder Variable noch Funktion ist; zulässig: {}.</translation>
     </message>
     <message>
-        <source>expression &quot;{}&quot; of {} is {} at point {} (x {:g} mm, y {:g} mm, z {:g} mm, c {:g} deg); allowed: expressions that are finite at every point observed.</source>
-        <translation>Ausdruck „{}“ von {} ist {} am Punkt {} (x {:g} mm, y {:g} mm, z {:g} mm, c {:g} deg); zulässig: Ausdrücke, die an jedem beobachteten Punkt endlich sind.</translation>
+        <source>expression &quot;{}&quot; of {} is {} at point {} (x {:g} mm, y {:g} mm, z {:g} mm, c {:g}°); allowed: expressions that are finite at every point observed.</source>
+        <translation>Ausdruck „{}“ von {} ist {} am Punkt {} (x {:g} mm, y {:g} mm, z {:g} mm, c {:g}°); zulässig: Ausdrücke, die an jedem beobachteten Punkt endlich sind.</translation>
     </message>
     <message>
         <source>ez = 4 g q s (1 - s), s = (y - y1) / (y2 - y1); EA = slope of ez along y</source>
@@ -4107,16 +4107,16 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Wärmestrom</translation>
     </message>
     <message>
-        <source>heat from outside that acts along Z</source>
-        <translation>Wärme von außen mit Wirkung entlang Z</translation>
+        <source>displacement along Z by an external heat source</source>
+        <translation>Verlagerung entlang Z durch eine äußere Wärmequelle</translation>
     </message>
     <message>
-        <source>heat from outside that bends the column towards X</source>
-        <translation>Wärme von außen, die den Ständer in Richtung X biegt</translation>
+        <source>column bending towards X by an external heat source</source>
+        <translation>Biegung des Ständers in Richtung X durch eine äußere Wärmequelle</translation>
     </message>
     <message>
-        <source>heat from outside that bends the column towards Y</source>
-        <translation>Wärme von außen, die den Ständer in Richtung Y biegt</translation>
+        <source>column bending towards Y by an external heat source</source>
+        <translation>Biegung des Ständers in Richtung Y durch eine äußere Wärmequelle</translation>
     </message>
     <message>
         <source>held-out error changes by {:+.0f} % without it; chosen in {:.0f} % of the resamples</source>
@@ -5399,12 +5399,12 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Programme brauchen einen Tisch, der um Z dreht.</translation>
     </message>
     <message>
-        <source>put in by you</source>
-        <translation>vom Benutzer eingesetzt</translation>
+        <source>added by the user</source>
+        <translation>vom Benutzer hinzugefügt</translation>
     </message>
     <message>
-        <source>put in by you; the data do not support it</source>
-        <translation>vom Benutzer eingesetzt; die Daten stützen es nicht</translation>
+        <source>added by the user; the data do not support it</source>
+        <translation>vom Benutzer hinzugefügt; die Daten stützen es nicht</translation>
     </message>
     <message>
         <source>radial growth of the rotary table</source>
@@ -5639,7 +5639,7 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Verschiebung entlang {}</translation>
     </message>
     <message>
-        <source>shock by the coolant along %1</source>
+        <source>thermal shock from coolant along %1</source>
         <translation>Temperaturschock durch Kühlschmierstoff entlang %1</translation>
     </message>
     <message>
@@ -5935,8 +5935,8 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>die Steuerung ist bereit</translation>
     </message>
     <message>
-        <source>the control was lost while the compensation faded; its watchdog goes on:</source>
-        <translation>die Steuerung ging verloren, während die Kompensation abklang; ihre Überwachung führt fort:</translation>
+        <source>the control was lost while the compensation faded; its watchdog continues the fade:</source>
+        <translation>die Steuerung ging verloren, während die Kompensation abklang; ihre Überwachung führt das Abklingen fort:</translation>
     </message>
     <message>
         <source>the control was lost: {}</source>
@@ -5959,8 +5959,8 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>der Erweiterungsfaktor muss positiv sein.</translation>
     </message>
     <message>
-        <source>the cycle would send {} to {:.3f} mm ({}stylus {} at {} deg); allowed: {} to {} mm.</source>
-        <translation>der Zyklus würde {} auf {:.3f} mm fahren ({}Tastereinsatz {} bei {} deg); zulässig: {} bis {} mm.</translation>
+        <source>the cycle would send {} to {:.3f} mm ({}stylus {} at {}°); allowed: {} to {} mm.</source>
+        <translation>der Zyklus würde {} auf {:.3f} mm fahren ({}Tastereinsatz {} bei {}°); zulässig: {} bis {} mm.</translation>
     </message>
     <message>
         <source>the deviations are {:.0f} times as large as the simulation predicts, with the same time history: one of them is not in µm (the simulation in mm, or the observations in nm); allowed: µm and µrad.</source>
@@ -6183,7 +6183,7 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>der Regelkreis endet</translation>
     </message>
     <message>
-        <source>the loop goes on with {} measuring cycles and {} rows of the log</source>
+        <source>the loop continues with {} measuring cycles and {} rows of the log</source>
         <translation>der Regelkreis wird mit {} Messzyklen und {} Zeilen des Protokolls fortgesetzt</translation>
     </message>
     <message>
@@ -6879,7 +6879,7 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Werkzeug {} ist wieder in der Spindel: die Messzyklen gehen weiter</translation>
     </message>
     <message>
-        <source>tool {} is in the spindle: the compensation goes on, measuring cycles wait for tool {}</source>
+        <source>tool {} is in the spindle: the compensation continues, measuring cycles wait for tool {}</source>
         <translation>Werkzeug {} ist in der Spindel: die Kompensation läuft weiter, Messzyklen warten auf Werkzeug {}</translation>
     </message>
     <message>
@@ -6891,8 +6891,8 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Antastung {} von {} ist schon vorhanden; die erste wird behalten</translation>
     </message>
     <message>
-        <source>duplicate touch {} of {} with stylus {} at {} deg in cycle {}; allowed: every touch of a cycle once.</source>
-        <translation>doppelte Antastung {} von {} mit Tastereinsatz {} bei {} deg in Zyklus {}; zulässig: jede Antastung eines Zyklus einmal.</translation>
+        <source>duplicate touch {} of {} with stylus {} at {}° in cycle {}; allowed: every touch of a cycle once.</source>
+        <translation>doppelte Antastung {} von {} mit Tastereinsatz {} bei {}° in Zyklus {}; zulässig: jede Antastung eines Zyklus einmal.</translation>
     </message>
     <message>
         <source>touch {} {} does not run along its axis.</source>
@@ -6979,7 +6979,7 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Unsicherheit von {} ist {:.2f}</translation>
     </message>
     <message>
-        <source>uneven expansion of the %1 ball screw</source>
+        <source>non-uniform expansion of the %1 ball screw</source>
         <translation>ungleichmäßige Ausdehnung des Kugelgewindetriebs %1</translation>
     </message>
     <message>
@@ -7287,8 +7287,8 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>{} lässt sich nicht beiseitelegen: {}.</translation>
     </message>
     <message>
-        <source>{} cannot be read: {}. Capturing goes on when it is back.</source>
-        <translation>{} ist nicht lesbar: {}. Die Aufnahme geht weiter, sobald er wieder da ist.</translation>
+        <source>{} cannot be read: {}. Capturing continues when the folder is available again.</source>
+        <translation>{} ist nicht lesbar: {}. Die Aufnahme geht weiter, sobald der Ordner wieder verfügbar ist.</translation>
     </message>
     <message>
         <source>{} cannot be run: {}</source>
@@ -7911,8 +7911,8 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>{} Abtastwerte sind zu wenige zur Wahl der Eingänge; zulässig: mindestens 40 im Trainingsbereich.</translation>
     </message>
     <message>
-        <source>{} seems to have grown by {} in {}, but its expansion coefficient and temperature say {}: the axis that measures it grows as well, its coefficient is another, or the sensor is not on it.</source>
-        <translation>{} ist anscheinend um {} in {} gewachsen, aber Ausdehnungskoeffizient und Temperatur ergeben {}: die messende Achse wächst ebenfalls, der Koeffizient ist ein anderer, oder der Sensor sitzt nicht darauf.</translation>
+        <source>{} seems to have grown by {} in {}, but its expansion coefficient and temperature say {}: the axis that measures it grows as well, the expansion coefficient is wrong, or the sensor is not on the artefact.</source>
+        <translation>{} ist anscheinend um {} in {} gewachsen, aber Ausdehnungskoeffizient und Temperatur ergeben {}: die messende Achse wächst ebenfalls, der Ausdehnungskoeffizient ist falsch, oder der Sensor sitzt nicht auf dem Normal.</translation>
     </message>
     <message>
         <source>{} sends a document that is not XML.</source>
@@ -8115,10 +8115,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>{} {} liefert „{}“, das weder eine Zahl ist noch unter &quot;values&quot; der Spalte {} steht.</translation>
     </message>
     <message>
-        <source>{} {} {:.0f} mm</source>
-        <translation>{} {} {:.0f} mm</translation>
-    </message>
-    <message>
         <source>{} {} {:g} to {:g}</source>
         <translation>{} {} {:g} bis {:g}</translation>
     </message>
@@ -8191,8 +8187,8 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>{}: die Differenz des eigenen neuen Laufs der Simulation {} beträgt {:.2f} µm, vorher {:.2f} µm (Rauschen {:.2f} µm).</translation>
     </message>
     <message>
-        <source>{}: the images say that the spindle turned {:.1f} deg further than spindle_deg says between {} and {}.</source>
-        <translation>{}: laut den Bildern drehte die Spindel um {:.1f} deg weiter, als spindle_deg zwischen {} und {} angibt.</translation>
+        <source>{}: the images say that the spindle turned {:.1f}° further than spindle_deg says between {} and {}.</source>
+        <translation>{}: laut den Bildern drehte die Spindel um {:.1f}° weiter, als spindle_deg zwischen {} und {} angibt.</translation>
     </message>
     <message>
         <source>{}: the scan fits the reference only {:.1f} mm away from where it was taken, on {:.0f} % of the surface; allowed: {:.1f} mm. Something lies over it, or it is another artefact.</source>
@@ -8467,8 +8463,8 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>8 und mehr</translation>
     </message>
     <message>
-        <source>; driven by {}</source>
-        <translation>; angetrieben von {}</translation>
+        <source>; driver: {}</source>
+        <translation>; Antriebsgröße: {}</translation>
     </message>
     <message>
         <source>; driver right</source>
@@ -9225,8 +9221,8 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Simulation</translation>
     </message>
     <message>
-        <source>{}, which is named, in a course of its own would explain it as well</source>
-        <translation>{}, bereits benannt, würde es mit einem eigenen Verlauf ebenso erklären</translation>
+        <source>{}, already named, would explain it equally well with a separate time history</source>
+        <translation>{}, bereits benannt, würde es mit einem eigenen Zeitverlauf ebenso gut erklären</translation>
     </message>
     <message>
         <source>the model has no output to compensate.</source>
@@ -9839,6 +9835,38 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>{} cannot be determined under the scan model {} ({}): {:.1f} mrad is what the mounting is assumed to have, with a standard uncertainty of {:.1f} mrad that dx, dy carry along. </source>
         <translation>{} ist unter dem Scanmodell {} nicht bestimmbar ({}): angenommen sind {:.1f} mrad aus dem Anbau, mit einer Standardunsicherheit von {:.1f} mrad, die dx und dy mittragen. </translation>
+    </message>
+    <message>
+        <source>{} above {:.0f} mm</source>
+        <translation>{} über {:.0f} mm</translation>
+    </message>
+    <message>
+        <source>{} below {:.0f} mm</source>
+        <translation>{} unter {:.0f} mm</translation>
+    </message>
+    <message>
+        <source>1 input</source>
+        <translation>1 Eingang</translation>
+    </message>
+    <message>
+        <source>{} inputs</source>
+        <translation>{} Eingänge</translation>
+    </message>
+    <message>
+        <source>ARX model</source>
+        <translation>ARX-Modell</translation>
+    </message>
+    <message>
+        <source>model of first-order time constants</source>
+        <translation>Modell aus Zeitkonstanten erster Ordnung</translation>
+    </message>
+    <message>
+        <source>output-error model</source>
+        <translation>Ausgangsfehlermodell</translation>
+    </message>
+    <message>
+        <source>step-response model</source>
+        <translation>Sprungantwortmodell</translation>
     </message>
 </context>
 <context>
@@ -11594,7 +11622,7 @@ einsatz</translation>
         <translation>Batch-Auftrag %1 %2</translation>
     </message>
     <message>
-        <source>%1 is cancelled; what is done stays, and Resume goes on.</source>
+        <source>%1 is cancelled; completed items are kept, and Resume continues.</source>
         <translation>%1 ist abgebrochen; Erledigtes bleibt erhalten, „Fortsetzen“ führt ihn weiter.</translation>
     </message>
     <message>
@@ -11606,7 +11634,7 @@ einsatz</translation>
         <translation>%1 ist beendet: %2.</translation>
     </message>
     <message>
-        <source>The batch has stopped; what is done stays, and Resume goes on.</source>
+        <source>The batch has stopped; completed items are kept, and Resume continues.</source>
         <translation>Der Batch-Auftrag wurde angehalten; Erledigtes bleibt erhalten, „Fortsetzen“ führt ihn weiter.</translation>
     </message>
     <message>
@@ -11821,7 +11849,7 @@ einsatz</translation>
         <translation>Ordner …</translation>
     </message>
     <message>
-        <source>Where the loop leaves its campaign; one that was ended goes on there</source>
+        <source>Where the loop leaves its campaign; one that was ended is continued there</source>
         <translation>Ablageort der Kampagne des Regelkreises; ein beendeter wird dort fortgesetzt</translation>
     </message>
     <message>
@@ -12880,7 +12908,7 @@ einsatz</translation>
         <translation>x, y, Breite, Höhe in Pixeln</translation>
     </message>
     <message numerus="yes">
-        <source>Recording into log.csv of this campaign: %n rows, %1 of %2 columns have values. You may leave this page; recording goes on.%3</source>
+        <source>Recording into log.csv of this campaign: %n rows, %1 of %2 columns have values. You may leave this page; recording continues.%3</source>
         <translation>
             <numerusform>Aufzeichnung in log.csv dieser Kampagne: %n Zeile, %1 von %2 Spalten haben Werte. Sie können diese Seite verlassen; die Aufzeichnung läuft weiter.%3</numerusform>
             <numerusform>Aufzeichnung in log.csv dieser Kampagne: %n Zeilen, %1 von %2 Spalten haben Werte. Sie können diese Seite verlassen; die Aufzeichnung läuft weiter.%3</numerusform>
@@ -14439,7 +14467,7 @@ einsatz</translation>
         <translation>Aufnahmen auswerten: das Maximum jeder Kurve ist die Höhe ihrer Messmarke.</translation>
     </message>
     <message>
-        <source>Press Evaluate the captures. Bad ones are listed with their reason, the rest is evaluated.</source>
+        <source>Press Evaluate the captures. Those that cannot be used are listed with the reason, the others are evaluated.</source>
         <translation>„Aufnahmen auswerten“ drücken. Unbrauchbare werden mit Grund aufgeführt, die übrigen ausgewertet.</translation>
     </message>
     <message>
@@ -18207,7 +18235,7 @@ einsatz</translation>
         <translation>Auswertung wird gelesen</translation>
     </message>
     <message>
-        <source>Press Evaluate the scans. Bad ones are listed with their reason, the rest is evaluated.</source>
+        <source>Press Evaluate the scans. Those that cannot be used are listed with the reason, the others are evaluated.</source>
         <translation>„Scans auswerten“ drücken. Unbrauchbare werden mit Grund aufgeführt, die übrigen ausgewertet.</translation>
     </message>
     <message>
@@ -20479,6 +20507,13 @@ einsatz</translation>
             <numerusform>Programm geprüft: %n Antastungen in %1 Bewegungen innerhalb der Verfahrwege, keine durch den Prüfkörper, nach jeder ein Rückzug, sichere Höhe %2 mm. „Exportieren“ (Strg+E) schreibt es.</numerusform>
         </translation>
     </message>
+    <message>
+        <source>%n touches from below are left out, where the stem of a ball may be.</source>
+        <translation>
+            <numerusform>%n Antastung von unten ist ausgelassen, wo der Stift einer Kugel sein kann.</numerusform>
+            <numerusform>%n Antastungen von unten sind ausgelassen, wo der Stift einer Kugel sein kann.</numerusform>
+        </translation>
+    </message>
 </context>
 <context>
     <name>spindrift::gui::TouchEvaluationPage</name>
@@ -20663,7 +20698,7 @@ einsatz</translation>
         <translation>Auswertung wird gelesen</translation>
     </message>
     <message>
-        <source>Press Evaluate the touches. Bad ones are listed with their reason, the rest is evaluated.</source>
+        <source>Press Evaluate the touches. Those that cannot be used are listed with the reason, the others are evaluated.</source>
         <translation>„Antastungen auswerten“ drücken. Unbrauchbare werden mit Grund aufgeführt, die übrigen ausgewertet.</translation>
     </message>
     <message>
@@ -22037,8 +22072,8 @@ einsatz</translation>
         <translation>oder</translation>
     </message>
     <message>
-        <source>Driven by %1.</source>
-        <translation>Angetrieben von %1.</translation>
+        <source>Driver: %1.</source>
+        <translation>Antriebsgröße: %1.</translation>
     </message>
     <message>
         <source>Also part of %1.</source>
@@ -22311,7 +22346,7 @@ einsatz</translation>
         <translation>Warten, bis das Messgerät eingelaufen ist; bis dahin würde seine Drift für Drift der Maschine gehalten.</translation>
     </message>
     <message>
-        <source>Take every capture of the plan and take bad ones again while you stand at the machine.</source>
+        <source>Take every capture of the plan, and repeat those that cannot be used while you are at the machine.</source>
         <translation>Jede Aufnahme des Plans machen und unbrauchbare wiederholen, solange man an der Maschine steht.</translation>
     </message>
     <message>

@@ -61,10 +61,10 @@
 <context>
     <name>spindrift::gui::ConnectionsPanel</name>
     <message numerus="yes">
-        <source>Recording into log.csv of this campaign: %n rows, %1 of %2 columns have values. You may leave this page; recording goes on.%3</source>
+        <source>Recording into log.csv of this campaign: %n rows, %1 of %2 columns have values. You may leave this page; recording continues.%3</source>
         <translation>
-            <numerusform>Recording into log.csv of this campaign: %n row, %1 of %2 columns have values. You may leave this page; recording goes on.%3</numerusform>
-            <numerusform>Recording into log.csv of this campaign: %n rows, %1 of %2 columns have values. You may leave this page; recording goes on.%3</numerusform>
+            <numerusform>Recording into log.csv of this campaign: %n row, %1 of %2 columns have values. You may leave this page; recording continues.%3</numerusform>
+            <numerusform>Recording into log.csv of this campaign: %n rows, %1 of %2 columns have values. You may leave this page; recording continues.%3</numerusform>
         </translation>
     </message>
     <message numerus="yes">
@@ -308,6 +308,13 @@
         <translation>
             <numerusform>Program checked: %n touch in %1 moves inside the travel, not through the artefact, a retract after it, safe height %2 mm. Export (Ctrl+E) writes it.</numerusform>
             <numerusform>Program checked: %n touches in %1 moves inside the travel, none through the artefact, a retract after each, safe height %2 mm. Export (Ctrl+E) writes it.</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%n touches from below are left out, where the stem of a ball may be.</source>
+        <translation>
+            <numerusform>%n touch from below is left out, where the stem of a ball may be.</numerusform>
+            <numerusform>%n touches from below are left out, where the stem of a ball may be.</numerusform>
         </translation>
     </message>
 </context>

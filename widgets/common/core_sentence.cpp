@@ -83,8 +83,10 @@ QRegularExpression patternOf(const Format& format) {
     pattern += QRegularExpression::escape(format.pieces[i]);
     if (i == format.pieces.size() - 1) break;
     const QString& hole = format.holes[static_cast<std::size_t>(i)];
-    pattern +=
-        isNumber(hole) ? QStringLiteral("([-+\u2212]?(?:[0-9.]+(?:e[-+]?[0-9]+)?|nan|inf))") : QStringLiteral("(.*?)");
+    pattern += isNumber(hole) ? QStringLiteral(
+                                    "([-+\u2212]?(?:(?:[0-9.]+ \u00d7 )?10\u207b?[\u00b9\u00b2\u00b3\u2070-\u2079]+|"
+                                    "[0-9.]+(?:e[-+]?[0-9]+)?|nan|inf)|\u2013)")
+                              : QStringLiteral("(.*?)");
   }
   return QRegularExpression(pattern + QStringLiteral("\\z"), QRegularExpression::DotMatchesEverythingOption);
 }

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "core/base/text.h"
-#include "core/reporting/parameter_meanings.h"
+#include "core/machine/parameter_meanings.h"
 #include "widgets/common/parts.h"
 #include "widgets/common/words.h"
 #include "widgets/theme/numbers.h"

@@ -27,7 +27,7 @@ void ball_screw(const CatalogueContext& context, std::vector<Effect>& out) {
     for (const bool uniform : {true, false}) {
       Effect effect;
       effect.id = (uniform ? "ball_screw.expansion." : "ball_screw.nonuniform.") + letter;
-      effect.title = uniform ? "thermal expansion of the %1 ball screw" : "uneven expansion of the %1 ball screw";
+      effect.title = uniform ? "thermal expansion of the %1 ball screw" : "non-uniform expansion of the %1 ball screw";
       effect.subject = axis_names[axis];
       effect.formula = uniform ? fmt::format("e{0} = g q ({0} - {0}0)", letter)
                                : fmt::format("e{0} = g q ({0} - {0}0)^2 + g' q ({0} - {0}0)", letter);

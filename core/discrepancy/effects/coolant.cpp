@@ -13,7 +13,7 @@ void coolant(const CatalogueContext& context, std::vector<Effect>& out) {
   for (int axis = 0; axis < 3; ++axis) {
     Effect effect;
     effect.id = std::string("coolant.shock.") + axis_letters[axis];
-    effect.title = "shock by the coolant along %1";
+    effect.title = "thermal shock from coolant along %1";
     effect.subject = axis_names[axis];
     effect.formula = fmt::format("e{} = g q", axis_letters[axis]);
     effect.references = {references::mayr};

@@ -12,9 +12,9 @@ void external_heat(const CatalogueContext& context, std::vector<Effect>& out) {
     if (kind < 2 && !context.machine->column_base_mm) continue;
     Effect effect;
     effect.id = std::string("external_heat.") + (kind == 0 ? "a" : kind == 1 ? "b" : "z");
-    effect.title = kind == 0   ? "heat from outside that bends the column towards Y"
-                   : kind == 1 ? "heat from outside that bends the column towards X"
-                               : "heat from outside that acts along Z";
+    effect.title = kind == 0   ? "column bending towards Y by an external heat source"
+                   : kind == 1 ? "column bending towards X by an external heat source"
+                               : "displacement along Z by an external heat source";
     effect.formula = kind == 0   ? "ey = -g q (z - z0)^2 / 2, EA = g q (z - z0), ez = EA ry"
                      : kind == 1 ? "ex = g q (z - z0)^2 / 2, EB = g q (z - z0), ez = -EB rx"
                                  : "ez = g q";

@@ -68,8 +68,7 @@ TEST(Capture, APlannedCampaignIsTakenInFromAFolder) {
   writeText(folder / wrong, textOf(image(3)) + " ");
   const nlohmann::json contradicted = jsonOf(command, 1);
   ASSERT_EQ(contradicted["retakes"].size(), 1U);
-  EXPECT_NE(contradicted["retakes"][0].get<std::string>().find("turned by 180 deg, the plan says 270 deg"),
-            std::string::npos)
+  EXPECT_NE(contradicted["retakes"][0].get<std::string>().find("turned by 180°, the plan says 270°"), std::string::npos)
       << contradicted["retakes"][0];
   const Session session = Session::open(folder / "session");
   ASSERT_EQ(session.campaigns().size(), 1U);

@@ -99,7 +99,7 @@ TEST_F(Images, CheckFindsWhatContradictsTheList) {
   EXPECT_EQ(j["to_take_again"], 1);
   for (const auto& capture : j["captures"]) EXPECT_EQ(capture["good"], capture["image"] != image(2)) << capture;
   const Outcome outcome = runCli({"check", c.string()});
-  EXPECT_NE(outcome.output.find("turned by 0 deg, the list says 8 deg"), std::string::npos) << outcome.output;
+  EXPECT_NE(outcome.output.find("turned by 0°, the list says 8°"), std::string::npos) << outcome.output;
   EXPECT_EQ(jsonOf({"check", c.string(), "--exclude", image(2)})["to_take_again"], 0);
 }
 

@@ -287,7 +287,7 @@ TEST(BatchCommand, WhatSlurmLostIsToldAndGivenAgain) {
   EXPECT_THAT(part("AGAIN", "LOST"), HasSubstr("Slurm holds its tasks already")) << said;
   EXPECT_THAT(part("AGAIN", "LOST"), HasSubstr("\n2\n")) << said;
   EXPECT_THAT(said.substr(said.find("LOST")),
-              HasSubstr("Slurm has no task of it that will begin; batch resume 1 --engine slurm goes on"))
+              HasSubstr("Slurm has no task of it that will begin; batch resume 1 --engine slurm continues it"))
       << said;
   EXPECT_EQ(jsonOf({"batch", "status", "n", "--store", store}).at("answered"), 8) << said;
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/base/text.h"
+#include "core/base/printed_number.h"
 #include "core/base/unit_text.h"
 
 #include <gmock/gmock.h>
@@ -56,6 +57,22 @@ TEST(Text, ExactNumberReadsBack) {
     ASSERT_TRUE(parseNumber(exactNumber(value), back));
     EXPECT_EQ(back, value);
   }
+}
+
+TEST(PrintedNumber, HasATrueMinusNoSignBeforeZeroAndPowersOfTen) {
+  EXPECT_EQ(fmt::format("{:.2f}", printed(-0.254)), "−0.25");
+  EXPECT_EQ(fmt::format("{:.2f}", printed(-0.004)), "0.00");
+  EXPECT_EQ(fmt::format("{:+.3f}", printed(0.0)), "0.000");
+  EXPECT_EQ(fmt::format("{:+.1f}", printed(1.25)), "+1.2");
+  EXPECT_EQ(fmt::format("{:g} to {:g}", printed(1e-6), printed(1e6)), "10⁻⁶ to 10⁶");
+  EXPECT_EQ(fmt::format("{:.2g}", printed(-2.54e-12)), "−2.5 × 10⁻¹²");
+  EXPECT_EQ(fmt::format("{:g}", printed(-0.0)), "0");
+  EXPECT_EQ(fmt::format("{}", printed(-1.5)), "−1.5");
+  EXPECT_EQ(fmt::format("{:.1f}", printed(std::nan(""))), "–");
+  // Widths count characters, not bytes of the signs.
+  EXPECT_EQ(fmt::format("[{:8.2f}] [{:<8.2f}] [{:>+8.2f}]", printed(-0.5), printed(-0.5), printed(0.5)),
+            "[   −0.50] [−0.50   ] [   +0.50]");
+  EXPECT_EQ(fmt::format("[{:3.2f}]", printed(-10.0)), "[−10.00]");
 }
 
 TEST(Text, ListsAndEscapes) {

@@ -62,13 +62,13 @@ TEST(CaptureAgreement, AnImageTurnedOtherwiseIsToldWithBothAngles) {
   Set set;
   std::vector<SeenCapture> there{set.shot(CaptureRole::Rotation, 0, {0, 0, 0}, 0.0)};
   const SeenCapture wrong = set.shot("F1", CaptureRole::Rotation, 1, {0, 0, 0}, 90.0, {0, 0, 0}, 8.0);
-  EXPECT_THAT(contradictionOf(wrong, there), HasSubstr("turned by 8 deg, the plan says 90 deg"));
+  EXPECT_THAT(contradictionOf(wrong, there), HasSubstr("turned by 8°, the plan says 90°"));
   for (const double angle : {90.0, 180.0, 270.0, -90.0, -8.0}) {
     EXPECT_THAT(contradictionOf(set.shot(CaptureRole::Rotation, 1, {0, 0, 0}, angle), there), IsEmpty()) << angle;
   }
   // The sign counts: the camera turned clockwise.
   const SeenCapture back = set.shot("F1", CaptureRole::Rotation, 1, {0, 0, 0}, 8.0, {0, 0, 0}, -8.0);
-  EXPECT_THAT(contradictionOf(back, there), HasSubstr("turned by -8 deg, the plan says 8 deg"));
+  EXPECT_THAT(contradictionOf(back, there), HasSubstr("turned by −8°, the plan says 8°"));
   // A spindle set by hand.
   const SeenCapture near = set.shot("F1", CaptureRole::Rotation, 1, {0, 0, 0}, 90.0, {0, 0, 0}, 91.5);
   EXPECT_THAT(contradictionOf(near, there), IsEmpty());

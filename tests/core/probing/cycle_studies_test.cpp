@@ -56,6 +56,28 @@ TEST(ReferenceComparison, GivesSlopeOffsetAndAVerdict) {
   EXPECT_THAT(still.verdict, HasSubstr("moves too little"));
 }
 
+TEST(ReferenceComparison, ACycleWithoutAnUncertaintyNeitherAgreesNorDisagrees) {
+  CycleEvaluation evaluation;
+  evaluation.names = {"EXX_um_per_m"};
+  evaluation.unit = {1.0};
+  std::string record = "time_s,value\n";
+  for (int k = 0; k < 6; ++k) {
+    CycleParameter parameter;
+    parameter.value = 10.0 * k;
+    parameter.standard_uncertainty = k == 0 ? 0.0 : 1.0;  // of the first, zero by definition
+    parameter.determined = true;
+    evaluation.cycles.push_back(fmt::format("C{}", k));
+    evaluation.cycle_time_s.push_back(600.0 * k);
+    evaluation.parameters.push_back({parameter});
+    record += fmt::format("{},{}\n", 600.0 * k, 10.0 * k + (k % 2 == 0 ? 0.3 : -0.3));
+  }
+  const testing::TempFolder folder;
+  const ReferenceComparison c = compareWithReference(evaluation, "EXX_um_per_m", folder.write("reference.csv", record));
+  EXPECT_EQ(c.points.size(), 6U);
+  EXPECT_EQ(c.judged, 5U);
+  EXPECT_EQ(c.within_two_sigma, 1.0);
+}
+
 TEST(ReferenceComparison, SlopeAndItsUncertaintyAreTrue) {
   double sum = 0.0, squares = 0.0;
   constexpr int runs = 300;

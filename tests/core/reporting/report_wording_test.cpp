@@ -3,13 +3,13 @@
 #include "core/reporting/report_wording.h"
 #include "core/discrepancy/catalogue.h"
 #include "core/machine/driver_words.h"
+#include "core/machine/parameter_meanings.h"
 
 #include <gmock/gmock.h>
 
 #include <cmath>
 
 #include "core/discrepancy/effect_titles.h"
-#include "core/reporting/parameter_meanings.h"
 
 namespace spindrift {
 namespace {
@@ -96,6 +96,10 @@ TEST(ParameterMeanings, ExplainEveryNameOfTheContract) {
   EXPECT_EQ(parameterMeaning("EXX_um"), "positioning error of the X axis");
   EXPECT_EQ(parameterMeaning("gX_um_per_m"), "thermal expansion of the X ball screw from its fixed bearing");
   EXPECT_EQ(parameterMeaning("EBY_urad"), "roll error of the Y axis");
+  EXPECT_EQ(errorParameter("aX_urad")->iso_symbol, "");  // EA0Z is the squareness of Z to Y
+  EXPECT_EQ(describedParameter("alpha_X_um_per_m").symbol, "αX");
+  EXPECT_EQ(describedParameter("EX0A_urad").symbol, "EX0A");
+  EXPECT_EQ(describedParameter("EX0A_urad").unit, "urad");
   for (const char* name : {"EQX_um", "E_um", "rms_um", "EAX_um", "hello"})
     EXPECT_EQ(parameterMeaning(name), "") << name;
 }

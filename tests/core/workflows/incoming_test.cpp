@@ -226,7 +226,7 @@ TEST_F(Incoming, ImagesThatContradictThePlanAreAskedForAgain) {
   put("M0_F1_rotation_1.png", imageBytes(21, 1.0, 200.0, 8.0));
   pass(3.0);
   EXPECT_EQ(item("M0_F1_rotation_1.png").state, IncomingState::Retake);
-  EXPECT_NE(item("M0_F1_rotation_1.png").sentence.find("turned by 8 deg, the plan says 90 deg"), std::string::npos)
+  EXPECT_NE(item("M0_F1_rotation_1.png").sentence.find("turned by 8°, the plan says 90°"), std::string::npos)
       << item("M0_F1_rotation_1.png").sentence;
   // A session opened again knows what it has seen, also without its journal.
   forgetJournal();
@@ -266,7 +266,7 @@ TEST_F(Incoming, ImagesThatContradictThePlanAreAskedForAgain) {
     if (c.good) continue;
     ++bad;
     EXPECT_NE(c.image.find("rotation_1"), std::string::npos) << c.image;
-    EXPECT_NE(c.sentence.find("Take again: The image is turned by 90 deg, the list says 180 deg"), std::string::npos)
+    EXPECT_NE(c.sentence.find("Take again: The image is turned by 90°, the list says 180°"), std::string::npos)
         << c.sentence;
   }
   EXPECT_EQ(bad, 1U);

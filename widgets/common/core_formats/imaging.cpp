@@ -31,7 +31,7 @@ std::span<const char* const> spindrift::gui::core_formats::imaging() noexcept {
     QT_TRANSLATE_NOOP("core", "The image has too little contrast ({:.0f} grey levels). Increase the illumination or check for an obstructed lens."),
     QT_TRANSLATE_NOOP("core", "The image is out of focus for its height of {:g} mm: sharpness {:.3f}, below it at {:g} mm {:.3f} and above it at {:g} mm {:.3f}."),
     QT_TRANSLATE_NOOP("core", "The image is out of focus for its height of {:g} mm: sharpness {:.3f}, {} of {} in {} has {:.3f} there."),
-    QT_TRANSLATE_NOOP("core", "The image is turned by {} deg, {} {} deg (against {} of {} in {})."),
+    QT_TRANSLATE_NOOP("core", "The image is turned by {}°, {} {}° (against {} of {} in {})."),
     QT_TRANSLATE_NOOP("core", "The machine was at rest at constant temperatures: the drift is that of the instrument."),
     QT_TRANSLATE_NOOP("core", "The pattern is shifted by {:.0f} µm, {} {:.0f} µm (against {} of {} in {})"),
     QT_TRANSLATE_NOOP("core", "The thermal drift of the machine and a drift of the instrument cannot be separated here, because {}; {}."),
@@ -144,7 +144,7 @@ std::span<const char* const> spindrift::gui::core_formats::imaging() noexcept {
     QT_TRANSLATE_NOOP("core", "{} rows and {} columns are not allowed; at least one of each is needed."),
     QT_TRANSLATE_NOOP("core", "{}: it has no deviation in {} in {}."),
     QT_TRANSLATE_NOOP("core", "{}: it has no deviation in {} there."),
-    QT_TRANSLATE_NOOP("core", "{}: the images say that the spindle turned {:.1f} deg further than spindle_deg says between {} and {}."),
+    QT_TRANSLATE_NOOP("core", "{}: the images say that the spindle turned {:.1f}° further than spindle_deg says between {} and {}."),
   };
   return formats;
 }

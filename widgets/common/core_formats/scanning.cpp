@@ -66,7 +66,7 @@ std::span<const char* const> spindrift::gui::core_formats::scanning() noexcept {
     QT_TRANSLATE_NOOP("core", "The scan covers only {:.0f} % of the reference; at least {:.0f} % are needed."),
     QT_TRANSLATE_NOOP("core", "The scan does not show the same surface as the reference: after the best fit the heights differ by {:.0f} µm ({:.0f} % of the cells agree); another artefact, something over it, or it has moved by more than {:.1f} mm."),
     QT_TRANSLATE_NOOP("core", "The scan is nearly flat: its heights vary by {:.3g} mm about a plane, those of the reference by {:.3g} mm; another surface, or none."),
-    QT_TRANSLATE_NOOP("core", "The scan is {}: that way it fits the reference, as it stands it does not."),
+    QT_TRANSLATE_NOOP("core", "The scan is {}: it matches the reference only after this transformation is undone."),
     QT_TRANSLATE_NOOP("core", "The scan shows no pocket: there is only one level, not a plate and a floor."),
     QT_TRANSLATE_NOOP("core", "The start must be finite."),
     QT_TRANSLATE_NOOP("core", "The study needs non-negative uncertainties and at least one trial."),

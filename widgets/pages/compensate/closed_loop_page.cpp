@@ -64,7 +64,7 @@ ClosedLoopPage::ClosedLoopPage(SessionModel& session, QWidget* parent)
   plan_->setWordWrap(true);
   line->addWidget(plan_, 1);
   folder_ = makeButton(tr("Folder …"), "folder-open");
-  folder_->setToolTip(tr("Where the loop leaves its campaign; one that was ended goes on there"));
+  folder_->setToolTip(tr("Where the loop leaves its campaign; one that was ended is continued there"));
   open_ = makeButton(tr("Open plan …"), "folder-open");
   line->addWidget(folder_);
   line->addWidget(open_);

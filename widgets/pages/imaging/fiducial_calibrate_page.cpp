@@ -137,8 +137,8 @@ void FiducialCalibratePage::refresh() {
     contrast_->setContent({});
     fiducial_->clear();
     for (NumberTile* tile : {pixel_, centre_, axes_, rejected_count_}) tile->set(QStringLiteral("–"));
-    callout()->show(Tone::Accent,
-                    tr("Press Evaluate the captures. Bad ones are listed with their reason, the rest is evaluated."));
+    callout()->show(Tone::Accent, tr("Press Evaluate the captures. Those that cannot be used are listed with the "
+                                     "reason, the others are evaluated."));
     return;
   }
   if (!state.current) {

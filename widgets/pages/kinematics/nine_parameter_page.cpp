@@ -15,7 +15,7 @@
 #include "core/base/atomic_file.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/reporting/parameter_meanings.h"
+#include "core/machine/parameter_meanings.h"
 #include "core/tasks/task_options.h"
 #include "core/workflows/fit_campaign.h"
 #include "widgets/common/core_sentence.h"

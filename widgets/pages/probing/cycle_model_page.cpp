@@ -17,7 +17,7 @@
 
 #include "core/base/atomic_file.h"
 #include "core/base/error.h"
-#include "core/reporting/parameter_meanings.h"
+#include "core/machine/parameter_meanings.h"
 #include "core/tasks/task_options.h"
 #include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"

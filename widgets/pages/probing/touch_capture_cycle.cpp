@@ -91,13 +91,16 @@ void TouchCapturePage::makeProgram() {
                                                   .arg(first.line)
                                                   .arg(fromCore(first.what)));
           } else {
-            program_verdict_->show(
-                Tone::Good,
+            QString verdict =
                 tr("Program checked: %n touches in %1 moves inside the travel, none through the artefact, a "
                    "retract after each, safe height %2 mm. Export (Ctrl+E) writes it.",
                    nullptr, static_cast<int>(program_->check.touches))
                     .arg(program_->check.moves.size())
-                    .arg(decimalText(program_->plan.safe_height_mm, 'f', 1)));
+                    .arg(decimalText(program_->plan.safe_height_mm, 'f', 1));
+            if (program_->plan.left_out_below > 0)
+              verdict += QLatin1Char(' ') + tr("%n touches from below are left out, where the stem of a ball may be.",
+                                               nullptr, program_->plan.left_out_below);
+            program_verdict_->show(Tone::Good, verdict);
           }
           showScene();
         };

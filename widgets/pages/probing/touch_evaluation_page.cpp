@@ -149,8 +149,8 @@ void TouchEvaluationPage::refresh() {
   const auto stored = session().evaluation();
   if (stored == nullptr) {
     clear();
-    callout()->show(Tone::Accent, tr("Press Evaluate the touches. Bad ones are listed with their reason, the rest is "
-                                     "evaluated."));
+    callout()->show(Tone::Accent, tr("Press Evaluate the touches. Those that cannot be used are listed with the "
+                                     "reason, the others are evaluated."));
     return;
   }
   const ShownTask beside = shown("evaluate", tr("Reading the evaluation"));

@@ -82,8 +82,8 @@ void ProfilerCalibrationPage::refresh() {
   const auto stored = session().evaluation();
   if (stored == nullptr) {
     clear();
-    callout()->show(Tone::Accent, tr("Press Evaluate the scans. Bad ones are listed with their reason, the rest is "
-                                     "evaluated."));
+    callout()->show(Tone::Accent, tr("Press Evaluate the scans. Those that cannot be used are listed with the reason, "
+                                     "the others are evaluated."));
     return;
   }
   const ShownTask shown_now = shown("evaluate", tr("Reading the evaluation"));

@@ -257,7 +257,7 @@ void WhatPanel::showEffect() {
                                       "or measure what the last tab proposes.")
                                        .arg(effectTitles(all, tr("or"))));
   }
-  QString drivers = tr("Driven by %1.").arg(driverWords(e->drivers));
+  QString drivers = tr("Driver: %1.").arg(driverWords(e->drivers));
   if (!e->containers.empty()) {
     drivers += QLatin1Char(' ') + tr("Also part of %1.").arg(effectTitles(e->containers, tr("and")));
   }

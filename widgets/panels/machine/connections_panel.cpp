@@ -455,7 +455,7 @@ void ConnectionsPanel::showState() {
     const QString gaps =
         snapshot.gaps.empty() ? QString() : tr(" The last gap: %1.").arg(coreSentence(snapshot.gaps.back()));
     state_->show(Tone::Good, tr("Recording into log.csv of this campaign: %n rows, %1 of %2 columns have values. You "
-                                "may leave this page; recording goes on.%3",
+                                "may leave this page; recording continues.%3",
                                 nullptr, static_cast<int>(snapshot.rows))
                                  .arg(known)
                                  .arg(snapshot.columns.size())

@@ -163,7 +163,8 @@ void BatchesPanel::workOn(const QString& title, std::function<std::int64_t(const
       return [this, state = report.state] {
         const QString name = tr("Batch %1 %2").arg(state.id).arg(text(state.name));
         if (state.cancelled)
-          callout_.show(Tone::Attention, tr("%1 is cancelled; what is done stays, and Resume goes on.").arg(name));
+          callout_.show(Tone::Attention,
+                        tr("%1 is cancelled; completed items are kept, and Resume continues.").arg(name));
         else if (state.failed_items > 0)
           callout_.show(Tone::Attention, tr("%1 is finished, %2 failed: spindrift-cli batch status %3 --results FILE "
                                             "says why.")
@@ -177,7 +178,7 @@ void BatchesPanel::workOn(const QString& title, std::function<std::int64_t(const
     job.failed = [this](const QString& sentence) { callout_.show(Tone::Bad, sentence); };
     callout_.set(Tone::Neutral, {});
     job.cancelled = [this] {
-      callout_.show(Tone::Attention, tr("The batch has stopped; what is done stays, and Resume goes on."));
+      callout_.show(Tone::Attention, tr("The batch has stopped; completed items are kept, and Resume continues."));
       look();
     };
     jobs_.run(std::move(job));

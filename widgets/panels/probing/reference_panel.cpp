@@ -176,7 +176,7 @@ void ReferencePanel::compare() {
           .arg(sizeText(comparison_.largest, {}))
           .arg(unit)
           .arg(decimalText(100.0 * comparison_.within_two_sigma, 'f', 0))
-          .arg(comparison_.points.size())
+          .arg(comparison_.judged)
           .arg(decimalText(comparison_.correlation, 'f', 3))
           .arg(sizeText(comparison_.offset, {})));
 }

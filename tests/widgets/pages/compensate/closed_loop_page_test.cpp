@@ -165,7 +165,7 @@ TEST_F(ClosedLoopPageTest, NothingMovesBeforeItIsConfirmedAndStopFadesToZero) {
   click(page_->confirmButton());
   ASSERT_TRUE(waitFor([&] { return page_->callout()->tone() == Tone::Good; }, 10)) << said();
   EXPECT_GE(page_->service().snapshot().result.cycles.size(), cycles);
-  EXPECT_TRUE(told(QStringLiteral("goes on with")));
+  EXPECT_TRUE(told(QStringLiteral("continues with")));
 }
 
 TEST_F(ClosedLoopPageTest, ALostControlIsSaid) {

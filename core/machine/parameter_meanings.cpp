@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "core/reporting/parameter_meanings.h"
+#include "core/machine/parameter_meanings.h"
 
 #include <fmt/format.h>
 
@@ -62,13 +62,13 @@ std::vector<ErrorParameter> table() {
   same("EC0C", "urad", "rotation of the table about Z");
   add("EME", "", "um/m", "thermal expansion of the artefact per metre, from its reference hole");
   // Ball artefact: deviation of the tip = d + a x tip + h x offset + g (reference - fixed bearing). The spindle S is
-  // displaced by d and turned by h; a turns the column that carries the Z axis, about Z without a symbol of its own.
+  // displaced by d and turned by h; a turns the column, which the standard has no symbol for: EA0Z and EB0Z are the
+  // squareness of the Z axis.
   for (std::size_t i = 0; i < axes.size(); ++i)
     add(fmt::format("h{}", axes[i]), fmt::format("E{}0S", rotations[i]), "urad",
         fmt::format("head tilt about {}", axes[i]));
   for (std::size_t i = 0; i < axes.size(); ++i)
-    add(fmt::format("a{}", axes[i]), axes[i] == 'Z' ? "" : fmt::format("E{}0Z", rotations[i]), "urad",
-        fmt::format("column tilt about {}", axes[i]));
+    add(fmt::format("a{}", axes[i]), "", "urad", fmt::format("column tilt about {}", axes[i]));
   for (const char axis : axes)
     add(fmt::format("d{}", axis), fmt::format("E{}0S", axis), "um",
         fmt::format("thermal displacement of the spindle along {}", axis));
@@ -91,9 +91,17 @@ const ErrorParameter* errorParameter(std::string_view name) {
   return found == all.end() ? nullptr : &*found;
 }
 
+ErrorParameter describedParameter(std::string_view name) {
+  if (const ErrorParameter* found = errorParameter(name)) return *found;
+  ErrorParameter parameter;
+  parameter.name = name;
+  parameter.symbol = name.substr(0, name.find('_'));
+  parameter.unit = name.ends_with("_um_per_m") ? "um/m" : name.ends_with("_urad") ? "urad" : "um";
+  return parameter;
+}
+
 std::string parameterMeaning(std::string_view name) {
-  const ErrorParameter* found = errorParameter(name);
-  return found == nullptr ? std::string() : found->meaning;
+  return describedParameter(name).meaning;
 }
 
 }  // namespace spindrift

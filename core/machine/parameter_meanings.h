@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The error parameters of FORMATS.md: one table of what they are called and what they mean, for pages, reports and the
-// manual.
+// The error parameters of FORMATS.md: one table of what they are called and what they mean, for pages, reports, the
+// command line and the manual.
 #pragma once
 
 #include <span>
@@ -25,6 +25,9 @@ struct ErrorParameter {
 
 /// The one that files call `name`; null if there is none.
 [[nodiscard]] const ErrorParameter* errorParameter(std::string_view name);
+
+/// The same with symbol and unit as its name says, and no meaning, for a name that is not known ("EX0A_um").
+[[nodiscard]] ErrorParameter describedParameter(std::string_view name);
 
 /// Its meaning ("EC0C_urad" -> "rotation of the table about Z"), empty for a name that is not known.
 [[nodiscard]] std::string parameterMeaning(std::string_view name);
