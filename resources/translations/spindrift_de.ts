@@ -20507,7 +20507,7 @@ einsatz</translation>
             <numerusform>Programm geprüft: %n Antastungen in %1 Bewegungen innerhalb der Verfahrwege, keine durch den Prüfkörper, nach jeder ein Rückzug, sichere Höhe %2 mm. „Exportieren“ (Strg+E) schreibt es.</numerusform>
         </translation>
     </message>
-    <message>
+    <message numerus="yes">
         <source>%n touches from below are left out, where the stem of a ball may be.</source>
         <translation>
             <numerusform>%n Antastung von unten ist ausgelassen, wo der Stift einer Kugel sein kann.</numerusform>
