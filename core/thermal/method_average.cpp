@@ -104,7 +104,7 @@ Averaged averaged(const Dictionary& d, const Evidence& evidence, const std::vect
   // Original units; every lag has its own reference, which goes into the offset.
   ThermalOutput o;
   o.name = output;
-  o.unit = outputUnit(output);
+  o.unit = modelUnit(output);
   o.offset = d.y_mean + average[0];
   std::vector<int> place(d.inputs.size(), -1);
   std::vector<Index> used;

@@ -397,7 +397,7 @@ ResponseFitResult fitResponse(const TimeSeries& series, const std::string& outpu
   model.source = series.file.string();
   ThermalOutput out;
   out.name = output;
-  out.unit = outputUnit(output);
+  out.unit = modelUnit(output);
   std::vector<Index> columns;
   std::vector<int> place(d.inputs.size(), -1);
   for (Index k = 0; k < p; ++k) {

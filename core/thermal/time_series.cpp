@@ -110,9 +110,14 @@ std::string_view toString(SignalKind kind) noexcept {
   return "other";
 }
 
-std::string outputUnit(std::string_view column) {
+std::string modelUnit(std::string_view column) {
   if (column.ends_with("_um_per_m")) return "um/m";
-  if (column.ends_with("_urad")) return "urad";
+  return column.ends_with("_urad") ? "urad" : "um";
+}
+
+std::string outputUnit(std::string_view column) {
+  const std::string of_deviation = modelUnit(column);
+  if (of_deviation != "um") return of_deviation;
   const SignalKind kind = signalKind(column, {});
   return kind == SignalKind::Temperature ? "degC" : kind == SignalKind::Speed ? "rpm" : "um";
 }

@@ -10,6 +10,7 @@
 
 #include "core/base/count_text.h"
 #include "core/base/error.h"
+#include "core/base/printed_number.h"
 #include "core/base/text.h"
 #include "core/imaging/fiducial_captures.h"
 #include "core/probing/cycle_plan.h"
@@ -108,7 +109,8 @@ std::string PlannedItem::instruction() const {
   static const std::map<std::string, std::string> names{
       {"rotation", "rotation"}, {"x_axis", "along X"}, {"y_axis", "along Y"}, {"focus", "focus"}};
   return fmt::format("{}, {} {}: x {:g}, y {:g}, z {:g} mm, spindle {:g}°", fiducial, names.at(role), index,
-                     position_mm.x(), position_mm.y(), position_mm.z(), spindle_deg);
+                     printed(position_mm.x()), printed(position_mm.y()), printed(position_mm.z()),
+                     printed(spindle_deg));
 }
 
 nlohmann::json MeasurementPlan::json() const {

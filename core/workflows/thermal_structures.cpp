@@ -202,7 +202,7 @@ StructuredFit fitByArx(const TimeSeries& series, const IdentifyRequest& request,
   }
   ThermalOutput output;
   output.name = request.output;
-  output.unit = outputUnit(request.output);
+  output.unit = modelUnit(request.output);
   std::string message;
   output.terms = lagsOf(model, message);
   if (!message.empty()) out.notes.push_back(message);
@@ -244,7 +244,7 @@ StructuredFit fitByOutputError(const TimeSeries& series, const IdentifyRequest& 
   describeInputs(b, series, inputs, out.model);
   ThermalOutput output;
   output.name = request.output;
-  output.unit = outputUnit(request.output);
+  output.unit = modelUnit(request.output);
   output.offset = fit.offset;
   for (std::size_t i = 0; i < inputs.size(); ++i) {
     const auto [gain, sigma] = fit.staticGain(i);

@@ -21,6 +21,7 @@
 #include "core/thermal/baselines.h"
 #include "core/thermal/input_selection.h"
 #include "core/thermal/method_choice.h"
+#include "core/thermal/output_unit.h"
 #include "core/workflows/campaign_series.h"
 #include "core/workflows/compensated_data.h"
 #include "core/workflows/thermal_structures.h"
@@ -341,7 +342,7 @@ nlohmann::json IdentifyResult::json() const {
 }
 
 std::string IdentifyResult::summary() const {
-  const std::string unit = printedUnit(model.outputs.front().unit);
+  const std::string unit = printedUnit(outputUnit(model.outputs.front().name));
   std::string text = fmt::format("{}: {} with {} ({})\n", model.outputs.front().name, kindInWords(model.kind),
                                  countOf(inputs.size(), "input"), joinedList(inputs));
   const auto line = [&](const std::string& name, const RunQuality& a, const RunQuality& b) {

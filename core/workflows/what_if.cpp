@@ -518,7 +518,8 @@ std::string whatIfText(const WhatIf& what_if) {
     const WhatIfParameter& p = what_if.parameters()[i];
     if (what_if.value(i) == 0.0) continue;
     any = true;
-    out += fmt::format("  {} = {:g} {}  {}", p.id, printed(what_if.value(i)), gainUnit(p.unit), p.title);
+    const std::string name = p.geometric ? p.id.substr(0, p.id.find('_')) : p.id;  // the unit stands behind the value
+    out += fmt::format("  {} = {:g} {}  {}", name, printed(what_if.value(i)), gainUnit(p.unit), p.title);
     if (!p.geometric)
       out += fmt::format(" ({}, {:g} {} per {})", p.driver, printed(p.sensitivity), gainUnit(p.gain_unit),
                          gainUnit(p.unit));

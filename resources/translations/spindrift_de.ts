@@ -9790,7 +9790,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>Held out: dashed points took no part in any fit.</source>
-        <translation>Zurückgehalten: gestrichelte Punkte nahmen an keiner Anpassung teil.</translation>
+        <translation>Validierungsdaten: gestrichelte Punkte nahmen an keiner Anpassung teil.</translation>
     </message>
     <message>
         <source>What the model does not describe (X {:.1f} µm, Y {:.1f} µm, Z {:.1f} µm) is part of the uncertainty of every correction.</source>

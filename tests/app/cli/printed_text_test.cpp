@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 #include <regex>
+#include <set>
 
 #include "tests/app/cli/child_process.h"
 #include "tests/support/temp_folder.h"
@@ -33,7 +34,7 @@ std::vector<std::string> misspelt(const std::string& text) {
   return found;
 }
 
-TEST(PrintedText, WhatIsMisspeltIsFound) {
+TEST(PrintedTextCheck, WhatIsMisspeltIsFound) {
   for (const char* bad : {"x -0.25 µm", "(-3 µm)", "by +0.000", "by -0.0", "0.3 -> 0.2", "p < 1e-12", "2.5e+06 points",
                           "-14.2 deg", "3 um", "(urad)", "EXX_um_per_m by 3"})
     EXPECT_FALSE(misspelt(bad).empty()) << bad;
@@ -97,9 +98,10 @@ TEST_F(PrintedText, OfFiducialAndScanCommands) {
   const std::string fiducials = demo("fiducials_small");
   expectWellPrinted({"evaluate", fiducials});
   expectWellPrinted({"check", fiducials});
+  const std::set<std::string> images{".jpg", ".png", ".pgm", ".tif", ".tiff"};
   std::string image;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(fiducials + "/captures"))
-    if (entry.path().extension() == ".png" && (image.empty() || entry.path().string() < image))
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(fiducials))
+    if (images.contains(entry.path().extension().string()) && (image.empty() || entry.path().string() < image))
       image = entry.path().string();
   expectWellPrinted({"decode", image});
   const std::string scans = demo("scans");
@@ -126,7 +128,6 @@ TEST_F(PrintedText, OfModelsAndDiscrepancy) {
   const std::string said = runCli(identify).output;
   EXPECT_NE(said.find(" °C"), std::string::npos) << said;
   EXPECT_EQ(said.find("µm"), std::string::npos) << said;
-  expectWellPrinted({"thermal", "iso230-3", campaign, "--test", "spindle"});
   expectWellPrinted({"plan", campaign});
 }
 
