@@ -26,10 +26,12 @@ struct PrintedNumber {
 
 }  // namespace spindrift
 
+namespace fmt {
+
 /// [<|>][+][width][.precision][f|g]; the width counts characters, and numbers stand at its right unless it begins with
 /// "<".
 template <>
-struct fmt::formatter<spindrift::PrintedNumber> {
+struct formatter<spindrift::PrintedNumber> {
   constexpr auto parse(fmt::format_parse_context& context) {
     auto at = context.begin();
     const auto end = context.end();
@@ -63,3 +65,5 @@ struct fmt::formatter<spindrift::PrintedNumber> {
   bool left_ = false;
   bool plus_ = false;
 };
+
+}  // namespace fmt
