@@ -121,7 +121,7 @@ TEST(ArtefactDesign, RefusesWhatNoMachineHolds) {
     EXPECT_NE(refused([&](auto&, auto& o) { o.point_count = value; }), "");
   }
   EXPECT_EQ(refused([](auto& s, auto&) { s.amplitude_x_mm = 1e308; }),
-            "Amplitude of the surface: found 1e+308 mm; allowed: -10000 to 10000.");
+            "Amplitude of the surface: found 10³⁰⁸ mm; allowed: −10000 to 10000.");
 }
 
 TEST(ArtefactDesign, StlIsClosedAndHoldsTheVolume) {
