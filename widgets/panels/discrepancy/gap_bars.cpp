@@ -75,13 +75,13 @@ void GapBars::set(const DiscrepancyGap& gap, bool holdout, const GapFigures& fit
   for (const Group& group : groups_)
     words << group.title + QStringLiteral(": ") + group.more.join(QStringLiteral(", "));
   setAccessibleDescription(words.join(QStringLiteral("; ")));
-  setMinimumHeight(sizeHint().height());  // a card that is short of room would cut the last line
+  updateGeometry();
   update();
 }
 
 void GapBars::clear() {
   groups_.clear();
-  setMinimumHeight(sizeHint().height());  // a card that is short of room would cut the last line
+  updateGeometry();
   update();
 }
 
