@@ -14883,12 +14883,12 @@ einsatz</translation>
         <translation>Grundrauschen %1</translation>
     </message>
     <message>
-        <source>peak to peak %1 %2</source>
-        <translation>Spitze-Spitze %1 %2</translation>
+        <source>p2p %1 %2</source>
+        <translation>p2p %1 %2</translation>
     </message>
     <message>
-        <source>rms: of the residuals of all observations. peak to peak: the largest of the residual of one series. fit: 100 % is perfect, 0 % no better than a constant for each series.</source>
-        <translation>rms: der Residuen aller Beobachtungen. Spitze-Spitze: größter Wert des Residuums einer Reihe. Fit: 100 % ist perfekt, 0 % nicht besser als eine Konstante je Reihe.</translation>
+        <source>rms: of the residuals of all observations. p2p: the largest peak-to-peak of the residual of one series. fit: 100 % is perfect, 0 % no better than a constant for each series.</source>
+        <translation>rms: der Residuen aller Beobachtungen. p2p: größter Spitze-Spitze-Wert des Residuums einer Reihe. Fit: 100 % ist perfekt, 0 % nicht besser als eine Konstante je Reihe.</translation>
     </message>
 </context>
 <context>

@@ -36,7 +36,7 @@ class GapBars : public QWidget {
   struct Group {
     QString title;
     std::vector<Bar> bars;
-    QStringList more;  ///< lines below the bars; may be empty
+    QString more;  ///< below the bars; may be empty
   };
   void draw(QPainter& painter, const QRect& area) const;
   std::vector<Group> groups_;
