@@ -8,6 +8,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "core/base/printed_number.h"
 #include "core/base/unit_text.h"
 
 namespace spindrift {
@@ -54,23 +55,12 @@ std::string pValueText(double p_value) {
 }
 
 std::string probabilityText(double p) {
-  constexpr const char* digits[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
-  constexpr int smallest = 12;  // what a model of the noise says beyond it is nothing
-  const auto powerOfTen = [&](int exponent) {
-    std::string text = "10⁻";
-    for (const char digit : std::to_string(exponent)) text += digits[digit - '0'];
-    return text;
-  };
+  constexpr double smallest = 1e-12;  // what a model of the noise says beyond it is nothing
   if (!std::isfinite(p)) return "–";
-  if (p < std::pow(10.0, -smallest)) return "< " + powerOfTen(smallest);
+  if (p < smallest) return "< " + printedNumber(smallest, "g");
   if (p >= 0.001) return fmt::format("{:.2g}", p);
-  int exponent = -static_cast<int>(std::floor(std::log10(p)));
-  double digit = std::round(p * std::pow(10.0, exponent));
-  if (digit >= 10.0) {  // 9.7e-4 is 1 × 10⁻³
-    digit = 1.0;
-    --exponent;
-  }
-  return fmt::format("{:.0f} × {}", digit, powerOfTen(exponent));
+  const std::string text = printedNumber(p, ".0e");
+  return text.starts_with("10⁻") ? "1 × " + text : text;
 }
 
 std::string exactNumber(double value) {

@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "core/thermal/interval_calibration.h"
-#include "core/thermal/output_unit.h"
 
 namespace spindrift {
 namespace choice {
@@ -104,7 +103,7 @@ Averaged averaged(const Dictionary& d, const Evidence& evidence, const std::vect
   // Original units; every lag has its own reference, which goes into the offset.
   ThermalOutput o;
   o.name = output;
-  o.unit = modelUnit(output);
+  o.unit = output.ends_with("_urad") ? "urad" : output.ends_with("_um_per_m") ? "um/m" : "um";
   o.offset = d.y_mean + average[0];
   std::vector<int> place(d.inputs.size(), -1);
   std::vector<Index> used;

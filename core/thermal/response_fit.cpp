@@ -14,7 +14,6 @@
 #include "core/math/least_squares.h"
 #include "core/math/statistics.h"
 #include "core/thermal/interval_calibration.h"
-#include "core/thermal/output_unit.h"
 #include "core/thermal/response_dictionary.h"
 
 namespace spindrift {
@@ -397,7 +396,7 @@ ResponseFitResult fitResponse(const TimeSeries& series, const std::string& outpu
   model.source = series.file.string();
   ThermalOutput out;
   out.name = output;
-  out.unit = modelUnit(output);
+  out.unit = output.ends_with("_urad") ? "urad" : output.ends_with("_um_per_m") ? "um/m" : "um";
   std::vector<Index> columns;
   std::vector<int> place(d.inputs.size(), -1);
   for (Index k = 0; k < p; ++k) {

@@ -13,7 +13,6 @@
 #include "core/base/text.h"
 #include "core/machine/log_table.h"
 #include "core/math/statistics.h"
-#include "core/thermal/output_unit.h"
 
 namespace spindrift {
 namespace {
@@ -108,18 +107,6 @@ std::string_view toString(SignalKind kind) noexcept {
       return "other";
   }
   return "other";
-}
-
-std::string modelUnit(std::string_view column) {
-  if (column.ends_with("_um_per_m")) return "um/m";
-  return column.ends_with("_urad") ? "urad" : "um";
-}
-
-std::string outputUnit(std::string_view column) {
-  const std::string of_deviation = modelUnit(column);
-  if (of_deviation != "um") return of_deviation;
-  const SignalKind kind = signalKind(column, {});
-  return kind == SignalKind::Temperature ? "degC" : kind == SignalKind::Speed ? "rpm" : "um";
 }
 
 SignalKind signalKind(std::string_view name, std::span<const double> values) {

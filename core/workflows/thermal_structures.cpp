@@ -12,7 +12,6 @@
 #include "core/math/statistics.h"
 #include "core/thermal/arx.h"
 #include "core/thermal/output_error.h"
-#include "core/thermal/output_unit.h"
 
 namespace spindrift {
 namespace {
@@ -202,7 +201,7 @@ StructuredFit fitByArx(const TimeSeries& series, const IdentifyRequest& request,
   }
   ThermalOutput output;
   output.name = request.output;
-  output.unit = modelUnit(request.output);
+  output.unit = request.output.ends_with("_urad") ? "urad" : "um";
   std::string message;
   output.terms = lagsOf(model, message);
   if (!message.empty()) out.notes.push_back(message);
@@ -244,7 +243,7 @@ StructuredFit fitByOutputError(const TimeSeries& series, const IdentifyRequest& 
   describeInputs(b, series, inputs, out.model);
   ThermalOutput output;
   output.name = request.output;
-  output.unit = modelUnit(request.output);
+  output.unit = request.output.ends_with("_urad") ? "urad" : "um";
   output.offset = fit.offset;
   for (std::size_t i = 0; i < inputs.size(); ++i) {
     const auto [gain, sigma] = fit.staticGain(i);

@@ -21,7 +21,6 @@
 #include "core/thermal/baselines.h"
 #include "core/thermal/input_selection.h"
 #include "core/thermal/method_choice.h"
-#include "core/thermal/output_unit.h"
 #include "core/workflows/campaign_series.h"
 #include "core/workflows/compensated_data.h"
 #include "core/workflows/thermal_structures.h"
@@ -341,8 +340,17 @@ nlohmann::json IdentifyResult::json() const {
   return out;
 }
 
+namespace {
+
+/// A model file says "um" of whatever has no unit of a deviation; who reads of a temperature is told so.
+std::string unitForPeople(const ThermalOutput& output) {
+  return signalKind(output.name, {}) == SignalKind::Temperature ? "degC" : output.unit;
+}
+
+}  // namespace
+
 std::string IdentifyResult::summary() const {
-  const std::string unit = printedUnit(outputUnit(model.outputs.front().name));
+  const std::string unit = printedUnit(unitForPeople(model.outputs.front()));
   std::string text = fmt::format("{}: {} with {} ({})\n", model.outputs.front().name, kindInWords(model.kind),
                                  countOf(inputs.size(), "input"), joinedList(inputs));
   const auto line = [&](const std::string& name, const RunQuality& a, const RunQuality& b) {

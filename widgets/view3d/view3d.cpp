@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "widgets/theme/fonts.h"
 #include "widgets/theme/numbers.h"
@@ -131,10 +132,11 @@ void View3D::setPoints(std::vector<ViewPoint> points) {
 
 void View3D::placeTable() {
   if (!bodies_) return;
-  double lowest_mm = bodies_->vertical.dot(bodies_->table_low_mm);
+  double lowest_mm = std::numeric_limits<double>::infinity();
   for (const ViewPoint& point : points_) lowest_mm = std::min(lowest_mm, bodies_->vertical.dot(point.position_mm));
-  if (lowest_mm > bodies_->vertical.dot(bodies_->table_low_mm) - 1e-6) return;
-  bodies_ = machineBodies(machine_, lowest_mm);
+  MachineBodies placed = machineBodies(machine_, lowest_mm);
+  if ((placed.table_low_mm - bodies_->table_low_mm).norm() < 1e-6) return;
+  bodies_ = std::move(placed);
   if (scene_ != nullptr) scene_->setBodies(*bodies_);
   changed();
 }

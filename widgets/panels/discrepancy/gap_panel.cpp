@@ -4,6 +4,7 @@
 #include <QComboBox>
 #include <QGridLayout>
 #include <QHBoxLayout>
+#include <QScrollArea>
 #include <QSlider>
 #include <QVBoxLayout>
 #include <algorithm>
@@ -131,7 +132,16 @@ void GapPanel::resizeEvent(QResizeEvent* event) {
 }
 
 void GapPanel::arrange() {
-  const bool both = height() >= height_for_both;
+  // The height that the page has without scrolling. The panel's own follows what it asks for where the page scrolls, so
+  // that it would go from one arrangement to the other and back without end.
+  int room = height();
+  for (const QWidget* w = parentWidget(); w != nullptr; w = w->parentWidget()) {
+    const auto* area = qobject_cast<const QScrollArea*>(w);
+    if (area == nullptr || area->widget() == nullptr) continue;
+    room -= std::max(0, area->widget()->height() - area->maximumViewportSize().height());
+    break;
+  }
+  const bool both = room >= height_for_both;
   what_->setVisible(!both);
   story_text_->setVisible(both);
   grid_->setRowStretch(0, both || what_->current() == 0 ? 1 : 0);

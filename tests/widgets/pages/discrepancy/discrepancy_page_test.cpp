@@ -574,5 +574,30 @@ TEST(EffectTitles, EveryIdOfTheCatalogueHasWords) {
   EXPECT_EQ(probabilityText(3e-5), QString::fromUtf8("3 × 10⁻⁵"));
 }
 
+/// Figures that ask for much height leave the panel where it is: it was laid out without end, one way and the other.
+TEST_F(DiscrepancyPageTest, GapComesToRestWhateverItsFiguresAskFor) {
+  search(Hidden::SpindleGrowth);
+  page_->tabs()->setCurrentWidget(page_->gap());
+  wait();
+  class Resizes : public QObject {
+   public:
+    using QObject::QObject;
+    int count = 0;
+    bool eventFilter(QObject*, QEvent* event) override {
+      count += event->type() == QEvent::Resize ? 1 : 0;
+      return false;
+    }
+  };
+  for (int height = 100; height <= 500; height += 25) {
+    page_->gap()->bars()->setMinimumHeight(height);
+    QTest::qWait(100);
+    Resizes resizes;
+    page_->gap()->installEventFilter(&resizes);
+    QTest::qWait(100);
+    page_->gap()->removeEventFilter(&resizes);
+    EXPECT_EQ(resizes.count, 0) << height;
+  }
+}
+
 }  // namespace
 }  // namespace spindrift::gui
