@@ -4,7 +4,6 @@
 #include <QComboBox>
 #include <QGridLayout>
 #include <QHBoxLayout>
-#include <QScrollArea>
 #include <QSlider>
 #include <QVBoxLayout>
 #include <algorithm>
@@ -13,6 +12,7 @@
 #include "core/machine/driver_words.h"
 #include "core/workflows/residual_map.h"
 #include "widgets/common/core_sentence.h"
+#include "widgets/common/page_room.h"
 #include "widgets/common/parts.h"
 #include "widgets/panels/common/effect_titles.h"
 #include "widgets/panels/discrepancy/gap_bars.h"
@@ -132,16 +132,7 @@ void GapPanel::resizeEvent(QResizeEvent* event) {
 }
 
 void GapPanel::arrange() {
-  // The height that the page has without scrolling. The panel's own follows what it asks for where the page scrolls, so
-  // that it would go from one arrangement to the other and back without end.
-  int room = height();
-  for (const QWidget* w = parentWidget(); w != nullptr; w = w->parentWidget()) {
-    const auto* area = qobject_cast<const QScrollArea*>(w);
-    if (area == nullptr || area->widget() == nullptr) continue;
-    room -= std::max(0, area->widget()->height() - area->maximumViewportSize().height());
-    break;
-  }
-  const bool both = room >= height_for_both;
+  const bool both = roomOnPage(*this) >= height_for_both;
   what_->setVisible(!both);
   story_text_->setVisible(both);
   grid_->setRowStretch(0, both || what_->current() == 0 ? 1 : 0);

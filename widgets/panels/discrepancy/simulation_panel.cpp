@@ -22,6 +22,7 @@
 #include "core/tasks/task_work.h"
 #include "widgets/commands/commands.h"
 #include "widgets/common/core_sentence.h"
+#include "widgets/common/page_room.h"
 #include "widgets/common/parts.h"
 #include "widgets/common/words.h"
 #include "widgets/jobs/task_job.h"
@@ -141,7 +142,7 @@ void SimulationPanel::resizeEvent(QResizeEvent* event) {
 
 void SimulationPanel::arrange() {
   // In a low window the words beside the figures are a tip.
-  found_scroll_->setVisible(figures_->rowCount() == 0 || height() >= height_for_words);
+  found_scroll_->setVisible(figures_->rowCount() == 0 || roomOnPage(*this) >= height_for_words);
   found_card_->setToolTip(found_scroll_->isVisibleTo(this) ? QString() : found_->text());
 }
 

@@ -16,6 +16,7 @@
 #include "core/base/text.h"
 #include "core/machine/driver_words.h"
 #include "widgets/common/core_sentence.h"
+#include "widgets/common/page_room.h"
 #include "widgets/common/parts.h"
 #include "widgets/common/words.h"
 #include "widgets/common/wrap_layout.h"
@@ -289,7 +290,7 @@ void WhatPanel::resizeEvent(QResizeEvent* event) {
 
 void WhatPanel::arrange() {
   const int rivals = story_ != nullptr && effectOf(chosen()) != nullptr && !effectOf(chosen())->rivals.empty() ? 80 : 0;
-  const bool room = height() - rivals >= height_for_plot && has_plot_;
+  const bool room = roomOnPage(*this) - rivals >= height_for_plot && has_plot_;
   plot_->setVisible(room);
   plot_title_->setVisible(room);
   legend_->setVisible(room);

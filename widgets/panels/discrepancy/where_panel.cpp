@@ -12,6 +12,7 @@
 #include <optional>
 
 #include "widgets/common/core_sentence.h"
+#include "widgets/common/page_room.h"
 #include "widgets/common/parts.h"
 #include "widgets/common/wrap_layout.h"
 #include "widgets/models/cells.h"
@@ -111,7 +112,7 @@ void WherePanel::resizeEvent(QResizeEvent* event) {
 }
 
 void WherePanel::arrange() {
-  const bool both = height() >= height_for_both;
+  const bool both = roomOnPage(*this) >= height_for_both;
   which_->setVisible(!both);
   plot_card_->setVisible(both || which_->current() == 0);
   view_card_->setVisible(both || which_->current() == 1);
