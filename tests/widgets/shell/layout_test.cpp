@@ -3,7 +3,7 @@
 // small screen of 1280 x 800 and on a large one of 1920 x 1080 without it, nothing is pushed out sideways, no text is
 // cut, whether of a label, a tab, a cell or a field, no plot squeezed, no table without rows, with half a row or with
 // columns out of sight, no word of a file stands for one of the field, one button at most is the primary one, and that
-// which runs the step is in sight. What the tour shows beside the pages is looked at too.
+// which runs the step is in sight, and every page comes to rest. What the tour shows beside the pages is looked at too.
 #include <gtest/gtest.h>
 
 #include <QAction>
@@ -27,6 +27,7 @@
 #include <QTest>
 #include <QTextDocumentFragment>
 #include <QTextEdit>
+#include <QTimer>
 #include <QTreeView>
 #include <QVBoxLayout>
 #include <set>
@@ -320,6 +321,65 @@ QStringList poorTables(const QWidget& root, bool beside_help) {
   return poor;
 }
 
+/// Notes what is given another size while it exists. Layouts that answer each other without end show only as a slow
+/// program otherwise.
+class Resizes : public QObject {
+ public:
+  explicit Resizes(const QWidget& root) : root_(root) { qApp->installEventFilter(this); }
+  [[nodiscard]] const QStringList& seen() const { return seen_; }
+  bool eventFilter(QObject* object, QEvent* event) override {
+    const auto* widget = event->type() == QEvent::Resize ? qobject_cast<const QWidget*>(object) : nullptr;
+    if (widget != nullptr && root_.isAncestorOf(widget))
+      seen_ << QStringLiteral("%1 %2 %3 x %4")
+                   .arg(QLatin1String(widget->metaObject()->className()), widget->accessibleName())
+                   .arg(widget->width())
+                   .arg(widget->height());
+    return false;
+  }
+
+ private:
+  const QWidget& root_;
+  QStringList seen_;
+};
+
+/// What still changes its size after the page has had the time to come to rest; empty: nothing does.
+QStringList neverAtRest(const QWidget& root) {
+  constexpr int quiet_ms = 20;
+  constexpr int tries = 50;
+  QStringList last;
+  for (int i = 0; i < tries; ++i) {
+    const Resizes resizes(root);
+    QTest::qWait(quiet_ms);
+    if (resizes.seen().isEmpty()) return {};
+    last = resizes.seen();
+  }
+  return last;
+}
+
+/// Asks for another height whenever it was given one.
+class Restless : public QWidget {
+ public:
+  using QWidget::QWidget;
+
+ protected:
+  void resizeEvent(QResizeEvent*) override {
+    QTimer::singleShot(0, this, [this] { setFixedHeight(height() == 20 ? 40 : 20); });
+  }
+};
+
+TEST(Rest, IsMissedWhereTwoSizesAnswerEachOther) {
+  QWidget page;
+  auto* column = new QVBoxLayout(&page);
+  auto* restless = new Restless;
+  column->addWidget(restless);
+  column->addStretch(1);
+  page.resize(200, 200);
+  page.show();
+  EXPECT_FALSE(neverAtRest(page).isEmpty());
+  delete restless;
+  EXPECT_TRUE(neverAtRest(page).isEmpty());
+}
+
 /// Demo and language.
 class LayoutTest : public StoryTest, public ::testing::WithParamInterface<std::tuple<const char*, const char*>> {
  protected:
@@ -379,7 +439,11 @@ class LayoutTest : public StoryTest, public ::testing::WithParamInterface<std::t
                    poorTables(*page, window_->help()->isVisible()).isEmpty();
           },
           1000);
-      expectFits(what + " at " + std::to_string(size.width()) + (help ? " with the help" : " without help"));
+      const std::string where =
+          what + " at " + std::to_string(size.width()) + (help ? " with the help" : " without help");
+      const QStringList restless = neverAtRest(*window_->currentPage());
+      EXPECT_TRUE(restless.isEmpty()) << where << ": never at rest: " << restless.join(QLatin1Char('|')).toStdString();
+      expectFits(where);
     }
   }
   /// Plots, views and tables can be read.
