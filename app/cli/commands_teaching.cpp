@@ -101,7 +101,7 @@ CommandResult continueExercise(const ExerciseArguments& arguments, JobContext& j
   }
   if (!answered) return result;
   ExerciseAnswer answer;
-  for (const std::string& text : arguments.answers) answer.named.push_back(NamedEffect::parse(text));
+  for (const std::string& text : arguments.answers) answer.named.push_back(AnsweredEffect::parse(text));
   answer.hints = arguments.hints;
   answer.searched_before = arguments.searched;
   const ExerciseScore score = scoreExercise(key, answer);

@@ -57,6 +57,12 @@ bool driverless(const Effect& effect) {
          });
 }
 
+/// One driver, through two lags.
+bool throughTwoLags(const EffectVariant& variant) {
+  return variant.inputs.size() == 2 && !variant.shared_lag && variant.inputs[0].dynamics == Dynamics::Lag &&
+         variant.inputs[1].dynamics == Dynamics::Lag && variant.inputs[0].driver == variant.inputs[1].driver;
+}
+
 bool sameShape(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
   if (a.cols() != 1 || b.cols() != 1) return false;
   const double dot = a.col(0).dot(b.col(0));
@@ -395,21 +401,55 @@ PosteriorSearch::State PosteriorSearch::stateOf(const std::vector<ModelTerm>& te
   State out;
   out.fit = rounds > 0 ? search_->refine(terms, rounds) : search_->solve(terms);
   out.evidence = evidenceOf(out.fit);
-  bool cold = false;  // something would have been warmer at the start than it can be: then it was not
-  std::vector<ModelTerm> without_start = out.fit.terms;
+  // What a refined fit cannot be is tried without what makes it so: without heat at the start where something would
+  // have been warmer than it can be, through one lag where two would cancel.
+  bool simpler = false;
+  std::vector<ModelTerm> rest = out.fit.terms;
   for (std::size_t t = 0; t < terms.size(); ++t) {
     if (search_->admissible(out.fit.terms[t], out.fit.gains[t])) continue;
     out.evidence -= inadmissible_price;
-    if (!warmStart(without_start[t].variant)) continue;
-    without_start[t].variant.inputs.pop_back();
-    without_start[t].variant.shared_lag = without_start[t].variant.inputs.size() > 1;
-    cold = true;
+    if (warmStart(rest[t].variant)) {
+      rest[t].variant.inputs.pop_back();
+      rest[t].variant.shared_lag = rest[t].variant.inputs.size() > 1;
+    } else if (throughTwoLags(rest[t].variant)) {
+      rest[t] = throughOneLag(out.fit, t);
+    } else {
+      continue;
+    }
+    simpler = true;
   }
-  if (cold) {
-    State again = stateOf(without_start, rounds);
+  if (simpler) {
+    State again = stateOf(rest, rounds);
     if (again.evidence > out.evidence) return again;
   }
+  return rounds > 1 ? withFewerLags(std::move(out), rounds) : out;
+}
+
+ModelTerm PosteriorSearch::throughOneLag(const JointFit& fit, std::size_t t) const {
+  ModelTerm out = fit.terms[t];
+  out.variant.inputs.pop_back();
+  const Eigen::VectorXd& gains = fit.gains[t];
+  const Index k = gains.size() / 2;
+  const double a = gains.head(k).sum();
+  const double b = gains.tail(k).sum();
+  const auto [low, high] = search_->parameterBounds(fit.terms[t], 0);
+  // The mean delay of the two.
+  const double mean = (a * out.parameters[0] + b * out.parameters[1]) / (a + b);
+  const double tau = std::isfinite(mean) ? mean : out.parameters[1];
+  out.parameters = {std::clamp(tau, low, high)};
   return out;
+}
+
+PosteriorSearch::State PosteriorSearch::withFewerLags(State state, int rounds) const {
+  for (std::size_t t = 0; t < state.fit.terms.size(); ++t) {
+    if (!throughTwoLags(state.fit.terms[t].variant)) continue;
+    std::vector<ModelTerm> terms = state.fit.terms;
+    terms[t] = throughOneLag(state.fit, t);
+    State simple = stateOf(terms, rounds);
+    // The second lag was chosen as well, beside its gain.
+    if (simple.evidence >= state.evidence - search_->logN()) state = std::move(simple);
+  }
+  return state;
 }
 
 std::vector<PosteriorSearch::State> PosteriorSearch::extend(const State& state, std::size_t most,
@@ -656,7 +696,7 @@ EffectPosterior PosteriorSearch::run(const JobContext& job, const ModelTerm* off
   const auto refined = [&](State state) {
     State again = stateOf(state.fit.terms, 2);
     visited.push_back(again);
-    return again.evidence > state.evidence ? again : state;
+    return withFewerLags(again.evidence > state.evidence ? std::move(again) : std::move(state), 2);
   };
   best = refined(std::move(best));
   // In the order of what each brings, the user's first. One that brings nothing any more leaves, and one in whose place

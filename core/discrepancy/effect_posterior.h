@@ -160,6 +160,11 @@ class PosteriorSearch {
     double evidence = 0.0;
   };
   [[nodiscard]] State stateOf(const std::vector<ModelTerm>& terms, int rounds) const;
+  /// An effect whose driver acts through two lags, through one that delays it as much.
+  [[nodiscard]] ModelTerm throughOneLag(const JointFit& fit, std::size_t t) const;
+  /// An effect whose driver acts through two lags, where one says as much: lags that stand between those of the grid
+  /// look like two of them.
+  [[nodiscard]] State withFewerLags(State state, int rounds) const;
   [[nodiscard]] std::vector<State> extend(const State& state, std::size_t most, const JobContext& job) const;
   [[nodiscard]] State exchanged(State best, const JobContext& job, std::vector<State>& visited) const;
   [[nodiscard]] Eigen::MatrixXd modelErrorColumns(const JointFit& fit) const;

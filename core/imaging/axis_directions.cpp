@@ -81,8 +81,8 @@ double angleDifference(double a_rad, double b_rad) {
   return std::remainder(a_rad - b_rad, 2.0 * std::numbers::pi);
 }
 
-AxisResult fitAxisDirections(const std::vector<AxisSet>& sets, const AxisOptions& options) {
-  AxisResult result;
+AxisDirections fitAxisDirections(const std::vector<AxisSet>& sets, const AxisOptions& options) {
+  AxisDirections result;
   std::vector<std::pair<Line, Line>> lines;
   double chi2 = options.expected_weight * options.expected_repeatability_um * options.expected_repeatability_um;
   double dof = options.expected_weight;

@@ -59,7 +59,7 @@ struct SetDirections {
   double phi_rad = 0.0;  ///< direction of the camera from this set
 };
 
-struct AxisResult {
+struct AxisDirections {
   FitStatus status = FitStatus::NotRun;
   std::string message;
   std::vector<SetDirections> sets;
@@ -71,7 +71,7 @@ struct AxisResult {
 };
 
 /// Sets need >= 2 positions along at least one axis, else they are left out. Degenerate if none remains.
-[[nodiscard]] AxisResult fitAxisDirections(const std::vector<AxisSet>& sets, const AxisOptions& options = {});
+[[nodiscard]] AxisDirections fitAxisDirections(const std::vector<AxisSet>& sets, const AxisOptions& options = {});
 
 /// Difference of two angles in (-pi, pi].
 [[nodiscard]] double angleDifference(double a_rad, double b_rad);

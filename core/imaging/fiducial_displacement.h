@@ -41,7 +41,7 @@ struct FiducialState {
   bool reference = false;
   std::optional<std::size_t> centre;      ///< index in CentreResult::sets
   std::optional<std::size_t> focus_set;   ///< index in focus sets
-  std::optional<std::size_t> directions;  ///< index in AxisResult::sets
+  std::optional<std::size_t> directions;  ///< index in AxisDirections::sets
   Eigen::Vector2d commanded_mm = Eigen::Vector2d::Zero();
   std::optional<std::size_t> xy_reference;  ///< index in FiducialDisplacement::states of what xy_um is relative to
   std::optional<std::size_t> z_reference;
@@ -60,7 +60,7 @@ struct FiducialDirection {
 
 struct FiducialDisplacement {
   std::vector<FiducialState> states;  ///< in order of the list
-  AxisResult axes;
+  AxisDirections axes;
   std::vector<FiducialDirection> directions;
   CentreResult centres;
   std::vector<FocusSet> focus_sets;

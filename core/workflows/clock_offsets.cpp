@@ -151,8 +151,8 @@ OffsetEstimate estimateClockOffset(std::span<const double> reference_time_s, std
   return {where, std::hypot(std::sqrt(noise * best / (2.0 * k)), sampling), best};
 }
 
-ClockOffset estimateFromMotion(const Campaign& campaign, const ObservationSet& observations,
-                               const std::string& instrument, double longest_s) {
+CampaignClockOffset estimateFromMotion(const Campaign& campaign, const ObservationSet& observations,
+                                       const std::string& instrument, double longest_s) {
   static constexpr std::array<const char*, 3> signals{"pos_x_mm", "pos_y_mm", "pos_z_mm"};
   if (!campaign.log)
     throw InputError({campaign.path("log.csv"), ""}, "is missing, so there is no clock to compare with.");

@@ -18,16 +18,16 @@
 
 namespace spindrift {
 
-struct ClockOffset {
+struct CampaignClockOffset {
   double offset_s = 0.0;
   double sigma_s = 0.0;
   std::string how;  ///< "entered", or what it was estimated from
 
-  bool operator==(const ClockOffset&) const = default;
+  bool operator==(const CampaignClockOffset&) const = default;
 };
 
 /// By source: "log", or the instrument as it stands in the observations ("microscope", "probe", ...).
-using ClockOffsets = std::map<std::string, ClockOffset>;
+using ClockOffsets = std::map<std::string, CampaignClockOffset>;
 [[nodiscard]] nlohmann::json toJson(const ClockOffsets& offsets);
 /// Throws InputError.
 [[nodiscard]] ClockOffsets clockOffsetsFrom(const nlohmann::json& json);
@@ -46,8 +46,8 @@ struct OffsetEstimate {
 
 /// Offset of an instrument against the log from the commanded motion both know: `pos_x_mm` (y, z) of the log and the
 /// positions of its observations. Throws InputError: no positions in the log, an instrument without observations.
-[[nodiscard]] ClockOffset estimateFromMotion(const Campaign& campaign, const ObservationSet& observations,
-                                             const std::string& instrument, double longest_s);
+[[nodiscard]] CampaignClockOffset estimateFromMotion(const Campaign& campaign, const ObservationSet& observations,
+                                                     const std::string& instrument, double longest_s);
 
 /// Log and own observations moved to the clock of the campaign. Sources that are not there are ignored.
 void applyClockOffsets(Campaign& campaign, const ClockOffsets& offsets);

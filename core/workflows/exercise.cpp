@@ -302,7 +302,7 @@ std::vector<ExerciseChoice> exerciseChoices(const std::filesystem::path& campaig
   return out;
 }
 
-NamedEffect NamedEffect::parse(const std::string& text) {
+AnsweredEffect AnsweredEffect::parse(const std::string& text) {
   std::vector<std::string> parts(1);  // the driver between two colons may be empty
   for (const char c : text) {
     if (c == ':') {
@@ -312,7 +312,7 @@ NamedEffect NamedEffect::parse(const std::string& text) {
     }
   }
   for (std::string& part : parts) part = std::string(trimmed(part));
-  NamedEffect out;
+  AnsweredEffect out;
   const auto reject = [&](const char* why) {
     throw InputError(fmt::format(
         "answer \"{}\" {}; allowed: EFFECT[:DRIVER[:SIZE]], for example column.bending.a:column_difference:12um.", text,
@@ -344,7 +344,7 @@ ExerciseScore scoreExercise(const ExerciseKey& key, const ExerciseAnswer& answer
   if (answer.hints < 0 || answer.hints > exercise_hints)
     throw InputError(fmt::format("{} hints; allowed: 0 to {}.", answer.hints, exercise_hints));
   std::set<std::string> seen;
-  for (const NamedEffect& named : answer.named) {
+  for (const AnsweredEffect& named : answer.named) {
     if (!seen.insert(named.id).second) throw InputError(fmt::format("\"{}\" is named twice; allowed: once.", named.id));
     const auto units = key.units.find(named.id);
     if (named.size && units != key.units.end() &&
@@ -360,7 +360,7 @@ ExerciseScore scoreExercise(const ExerciseKey& key, const ExerciseAnswer& answer
   for (const HiddenEffect& hidden : key.hidden) {
     ExerciseScore::Line line;
     line.hidden = hidden;
-    for (const NamedEffect& named : answer.named) {
+    for (const AnsweredEffect& named : answer.named) {
       if (named.id != hidden.id) continue;
       counted.insert(named.id);
       line.named = named.id;
@@ -377,7 +377,7 @@ ExerciseScore scoreExercise(const ExerciseKey& key, const ExerciseAnswer& answer
   }
   // What is left may count half for what nobody named.
   for (ExerciseScore::Line& line : score.lines) {
-    for (const NamedEffect& named : answer.named) {
+    for (const AnsweredEffect& named : answer.named) {
       const auto& alike = line.hidden.alike;
       if (!line.named.empty() || counted.contains(named.id) ||
           std::find(alike.begin(), alike.end(), named.id) == alike.end())
@@ -389,7 +389,7 @@ ExerciseScore scoreExercise(const ExerciseKey& key, const ExerciseAnswer& answer
   }
   double total = 0.0;
   for (const ExerciseScore::Line& line : score.lines) total += line.marks;
-  for (const NamedEffect& named : answer.named) {
+  for (const AnsweredEffect& named : answer.named) {
     if (counted.contains(named.id)) continue;
     score.wrong.push_back(named.id);
     total -= share * wrong_part;

@@ -99,16 +99,16 @@ struct NamedSize {
 };
 
 /// What a learner says. A driver may be left out, a size as well.
-struct NamedEffect {
+struct AnsweredEffect {
   std::string id;
   std::string driver;
   std::optional<NamedSize> size;
   /// "column.bending.a:column_difference:12.5um". Throws InputError.
-  [[nodiscard]] static NamedEffect parse(const std::string& text);
+  [[nodiscard]] static AnsweredEffect parse(const std::string& text);
 };
 
 struct ExerciseAnswer {
-  std::vector<NamedEffect> named;
+  std::vector<AnsweredEffect> named;
   int hints = 0;                 ///< used, 0 ... 3
   bool searched_before = false;  ///< the search had been run
 };

@@ -2,10 +2,12 @@
 // The layers of DESIGN.md as a test: every #include of the tree is read and held against them.
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <map>
 #include <regex>
 #include <set>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -171,6 +173,36 @@ TEST(Layers, TablesAndPicturesAreWorkedOutBesideTheWindow) {
     }
   }
   EXPECT_GT(found, 4U);
+}
+
+/// Two types of one name in one namespace share the destructor that the linker finds first, and free what they never
+/// had. No compiler tells.
+TEST(Layers, NoTwoTypesHaveOneName) {
+  static const std::regex opens(R"re(^namespace ([\w:]+)? ?\{)re");
+  static const std::regex type(R"re(^(?:struct|class) (\w+)(?: final)?(?: ?\{| : ))re");
+  std::map<std::string, std::set<std::string>> defined;
+  for (const char* folder : {"core", "widgets", "app"}) {
+    for (const fs::path& file : sources(fs::path(SPINDRIFT_SOURCE_DIR) / folder)) {
+      std::vector<std::string> around;
+      std::istringstream lines(readFile(file));
+      for (std::string line; std::getline(lines, line);) {
+        std::smatch found;
+        if (std::regex_search(line, found, opens)) {
+          around.push_back(found[1]);
+        } else if (line.starts_with("}  // namespace") && !around.empty()) {
+          around.pop_back();
+        } else if (std::regex_search(line, found, type) &&
+                   std::find(around.begin(), around.end(), "") == around.end()) {
+          std::string name;
+          for (const std::string& space : around) name += space + "::";
+          defined[name + std::string(found[1])].insert(file.string());
+        }
+      }
+    }
+  }
+  EXPECT_GT(defined.size(), 500U);
+  for (const auto& [name, files] : defined)
+    EXPECT_EQ(files.size(), 1U) << name << " in " << ::testing::PrintToString(files);
 }
 
 /// What may be shown of a task, and for how long, is told by the graph: nobody compares what results were made from.

@@ -142,7 +142,8 @@ static QString capitalised(QString sentence) {
 
 void Callout::show(Tone tone, const QString& sentence) {
   tone_ = tone;
-  text_->setText(capitalised(sentence));
+  sentence_ = capitalised(sentence);
+  text_->setText(keptTogether(sentence_));
   icon_->set(QString::fromLatin1(toneIcon(tone)), tone);
   setAccessibleName(onScreen(sentence));
   setVisible(true);
@@ -151,6 +152,7 @@ void Callout::show(Tone tone, const QString& sentence) {
 
 void Callout::set(Tone tone, const QString& sentence) {
   if (sentence.isEmpty()) {
+    sentence_.clear();
     text_->clear();
     hide();
   } else {

@@ -81,7 +81,8 @@ class Callout : public QFrame {
   /// Shows `sentence`, or hides the callout if it is empty.
   void set(Tone tone, const QString& sentence);
   void setAction(const QString& text, std::function<void()> action);
-  [[nodiscard]] QString sentence() const { return text_->text(); }
+  /// As it was given; a line never ends between a number and its unit on screen.
+  [[nodiscard]] const QString& sentence() const { return sentence_; }
   [[nodiscard]] Tone tone() const { return tone_; }
 
  protected:
@@ -89,6 +90,7 @@ class Callout : public QFrame {
 
  private:
   Tone tone_ = Tone::Neutral;
+  QString sentence_;
   IconLabel* icon_;
   WrappedLabel* text_;
   QPushButton* button_;

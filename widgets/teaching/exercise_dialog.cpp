@@ -392,7 +392,7 @@ void ExerciseDialog::showScore(const ExerciseKey& key) {
   for (const AnswerRow& row : rows_) {
     const ExerciseChoice* choice = chosen(row);
     if (choice == nullptr) continue;
-    NamedEffect named{choice->id, row.driver->currentData().toString().toStdString(), std::nullopt};
+    AnsweredEffect named{choice->id, row.driver->currentData().toString().toStdString(), std::nullopt};
     if (row.size->value() > 0.0) named.size = {row.size->value(), row.kind->currentData().toString().toStdString()};
     answer.named.push_back(std::move(named));
   }

@@ -4,7 +4,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 
 #include "core/discrepancy/candidate_library.h"
@@ -53,6 +55,45 @@ TEST(TwoEffects, AreBothNamedWhereAFurtherDriverOfTheOneCouldTakeUpTheOther) {
     std::vector<std::string> names;
     for (const FoundEffect& effect : result.effects) names.push_back(effect.id);
     EXPECT_THAT(names, UnorderedElementsAre("frame.rotation.a", "spindle.drift.y")) << "seed " << seed;
+  }
+}
+
+/// A spindle that grows with its speed through one lag (exact for what is constant from row to row), by the clock of
+/// the log.
+DiscrepancyInput growthThroughOneLag(std::uint64_t seed, double tau_s, double um_per_krpm) {
+  DiscrepancyInput input = campaign(Hidden::Nothing, seed);
+  const std::vector<double>& time = input.log->time_s();
+  const std::vector<double>& rpm = *input.log->signal("spindle_rpm");
+  std::vector<double> state(time.size(), 0.0);
+  for (std::size_t i = 0; i + 1 < time.size(); ++i) {
+    state[i + 1] = state[i] + (rpm[i] * 1e-3 - state[i]) * (1.0 - std::exp(-(time[i + 1] - time[i]) / tau_s));
+  }
+  for (Observation& o : input.observations.rows) {
+    if (o.component != Component::EZ) continue;
+    const auto at = static_cast<std::size_t>(std::lower_bound(time.begin(), time.end(), o.time_s) - time.begin());
+    o.value += um_per_krpm * state[at];
+  }
+  return input;
+}
+
+TEST(Dynamics, OfOneLagAreToldAsOneLagByTheRightClock) {
+  // Lags between those of the grid, strong enough for the difference to matter.
+  for (const double tau_s : {700.0, 1310.0, 1500.0, 2600.0}) {
+    for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+      SCOPED_TRACE(std::to_string(tau_s) + " s, seed " + std::to_string(seed));
+      const DiscrepancyResult result = run(growthThroughOneLag(seed, tau_s, 8.0));
+      ASSERT_EQ(result.effects.size(), 1U);
+      EXPECT_EQ(result.effects[0].id, "spindle.growth.z");
+      EXPECT_EQ(result.effects[0].drivers.find('+'), std::string::npos) << result.effects[0].drivers;
+      int lags = 0;
+      for (const FittedParameter& p : result.effects[0].parameters) {
+        if (p.name.find("tau") == std::string::npos) continue;
+        ++lags;
+        EXPECT_NEAR(p.value, tau_s, 4.0 * p.standard_uncertainty + 0.01 * tau_s) << p.name;
+      }
+      EXPECT_EQ(lags, 1);
+      EXPECT_EQ(result.clock_offset_s, 0.0);
+    }
   }
 }
 

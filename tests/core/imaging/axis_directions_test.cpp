@@ -43,7 +43,7 @@ std::vector<AxisSet> makeSets(Random& random, const std::vector<double>& psi, co
 TEST(AxisDirections, ExactWithoutNoiseForAnyOrientation) {
   Random random(1);
   for (const double spindle : {0.0, 30.0}) {
-    const AxisResult result =
+    const AxisDirections result =
         fitAxisDirections(makeSets(random, {0.02, -2.9, 1.5}, {-0.113, -0.113, -0.113}, 0.0, 0.0, spindle));
     ASSERT_EQ(result.status, FitStatus::Converged);
     EXPECT_TRUE(result.pooled);
@@ -57,7 +57,7 @@ TEST(AxisDirections, ExactWithoutNoiseForAnyOrientation) {
 
 TEST(AxisDirections, FindsTheSquarenessOfTheAxes) {
   Random random(2);
-  const AxisResult result = fitAxisDirections(makeSets(random, {0.02}, {0.1}, 0.0, 0.003));
+  const AxisDirections result = fitAxisDirections(makeSets(random, {0.02}, {0.1}, 0.0, 0.003));
   EXPECT_NEAR(result.sets[0].orthogonality_rad, 0.003, 1e-5);
 }
 
@@ -67,7 +67,7 @@ TEST(AxisDirections, StatedUncertaintiesHold) {
   int pooled = 0;
   constexpr int campaigns = 500;
   for (int n = 0; n < campaigns; ++n) {
-    const AxisResult result = fitAxisDirections(makeSets(random, {0.02, -0.01, 0.03, 0.0}, {0.1, 0.1, 0.1, 0.1}, 0.25));
+    const AxisDirections result = fitAxisDirections(makeSets(random, {0.02, -0.01, 0.03, 0.0}, {0.1, 0.1, 0.1, 0.1}, 0.25));
     inside += std::abs(result.phi_rad - 0.1) < 1.96 * result.phi_sigma_rad ? 1 : 0;
     pooled += result.pooled ? 1 : 0;
   }
@@ -78,7 +78,7 @@ TEST(AxisDirections, StatedUncertaintiesHold) {
 
 TEST(AxisDirections, ACameraThatTurnedIsNotPooled) {
   Random random(4);
-  const AxisResult result = fitAxisDirections(makeSets(random, {0.0, 0.0, 0.0}, {0.1, 0.1, 0.12}, 0.25));
+  const AxisDirections result = fitAxisDirections(makeSets(random, {0.0, 0.0, 0.0}, {0.1, 0.1, 0.12}, 0.25));
   EXPECT_FALSE(result.pooled);
   EXPECT_LT(result.p_value, 1e-4);
   EXPECT_GT(result.phi_sigma_rad, 0.003);

@@ -29,7 +29,7 @@ Record motion(double period_s, double late_s, double noise, std::uint64_t seed) 
   return r;
 }
 
-TEST(ClockOffset, IsFoundFromACommonMotionWithinItsUncertainty) {
+TEST(CampaignClockOffset, IsFoundFromACommonMotionWithinItsUncertainty) {
   const Record reference = motion(1.0, 0.0, 0.0, 1);
   int inside = 0;
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
@@ -43,7 +43,7 @@ TEST(ClockOffset, IsFoundFromACommonMotionWithinItsUncertainty) {
   EXPECT_GE(inside, 34);
 }
 
-TEST(ClockOffset, RefusesWhatShowsNoEvent) {
+TEST(CampaignClockOffset, RefusesWhatShowsNoEvent) {
   const Record reference = motion(1.0, 0.0, 0.0, 1);
   const Record still{{0.0, 1.0, 2.0, 3.0, 4.0}, {5.0, 5.0, 5.0, 5.0, 5.0}};
   EXPECT_THROW(
@@ -57,7 +57,7 @@ TEST(ClockOffset, RefusesWhatShowsNoEvent) {
       InputError);
 }
 
-TEST(ClockOffset, MovesLogAndObservationsAndSurvivesTheSession) {
+TEST(CampaignClockOffset, MovesLogAndObservationsAndSurvivesTheSession) {
   Campaign c;
   c.log = OperatingLog({0.0, 100.0});
   c.log->setSignal("spindle_rpm", {0.0, 3000.0});

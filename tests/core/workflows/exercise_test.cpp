@@ -187,19 +187,19 @@ TEST(Exercise, HintsAndWhatIsNotAllowed) {
   }
   EXPECT_THROW((void)exerciseHint(key, 0), InputError);
   EXPECT_THROW((void)exerciseLevelFromString("insane"), InputError);
-  EXPECT_THROW((void)NamedEffect::parse(""), InputError);
-  EXPECT_THROW((void)NamedEffect::parse("a:b:c"), InputError);
-  EXPECT_THROW((void)NamedEffect::parse("a:b:1:2"), InputError);
-  EXPECT_THROW((void)NamedEffect::parse("a:b:1"), InputError) << "1 of what";
-  EXPECT_THROW((void)NamedEffect::parse("a:b:um"), InputError);
-  EXPECT_THROW((void)NamedEffect::parse("a:b:-1um"), InputError);
-  EXPECT_THROW((void)NamedEffect::parse("a:b:1mm"), InputError);
-  const NamedSize size = NamedEffect::parse("a.b:spindle_rpm^1.5:3.5um").size.value();
+  EXPECT_THROW((void)AnsweredEffect::parse(""), InputError);
+  EXPECT_THROW((void)AnsweredEffect::parse("a:b:c"), InputError);
+  EXPECT_THROW((void)AnsweredEffect::parse("a:b:1:2"), InputError);
+  EXPECT_THROW((void)AnsweredEffect::parse("a:b:1"), InputError) << "1 of what";
+  EXPECT_THROW((void)AnsweredEffect::parse("a:b:um"), InputError);
+  EXPECT_THROW((void)AnsweredEffect::parse("a:b:-1um"), InputError);
+  EXPECT_THROW((void)AnsweredEffect::parse("a:b:1mm"), InputError);
+  const NamedSize size = AnsweredEffect::parse("a.b:spindle_rpm^1.5:3.5um").size.value();
   EXPECT_EQ(size.value, 3.5);
   EXPECT_EQ(size.unit, "um");
   // What nothing in the log drives has no driver to name.
   for (const auto& [text, unit] : {std::pair{"a.b::12 µrad", "urad"}, std::pair{"a.b::12µm", "um"}}) {
-    const NamedEffect named = NamedEffect::parse(text);
+    const AnsweredEffect named = AnsweredEffect::parse(text);
     EXPECT_EQ(named.driver, "");
     ASSERT_TRUE(named.size.has_value());
     EXPECT_EQ(named.size->value, 12.0);

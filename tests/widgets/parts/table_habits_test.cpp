@@ -263,6 +263,10 @@ TEST(WordsTest, NoLineEndsBetweenANumberAndItsUnit) {
   EXPECT_EQ(shown("Certificate ± / µm"), "Certificate ± /_µm");
   EXPECT_EQ(shown("Expansion / (µm/(m·K))"), "Expansion /_(µm/(m·K))");
   EXPECT_EQ(shown("5 measured points"), "5 measured points");
+  Callout callout;
+  callout.show(Tone::Attention, QStringLiteral("the noise alone is 0.55 µm."));
+  EXPECT_EQ(callout.sentence(), QStringLiteral("The noise alone is 0.55 µm."));
+  EXPECT_NE(callout.findChild<WrappedLabel*>()->text().indexOf(QStringLiteral("0.55\u00a0µm")), -1);
 }
 
 }  // namespace

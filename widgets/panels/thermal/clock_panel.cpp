@@ -107,7 +107,7 @@ void ClockPanel::estimate() {
   run_(tr("Estimating the offset of a clock"),
        [this, set, source, applied_s, campaign = session_.campaign()](JobContext&) -> std::function<void()> {
          try {
-           const ClockOffset found = estimateFromMotion(*campaign, *set, source, longest_search_s);
+           const CampaignClockOffset found = estimateFromMotion(*campaign, *set, source, longest_search_s);
            return [this, source, applied_s, found] {
              change(source, applied_s + found.offset_s, found.sigma_s, found.how);
              message_->set(
