@@ -120,7 +120,7 @@ void addCompensationCommands(CLI::App& app, CommandLine& line) {
   command
       ->add_option(
           "--reference", a->reference,
-          "Position through which the lines of the component tables pass, in mm; default: the middle of the travels")
+          "Position through which the lines of the component tables pass, in mm; default: the middle of the travels, or the measured position next to it")
       ->type_name("X,Y,Z");
   command
       ->add_option("--out", a->out,

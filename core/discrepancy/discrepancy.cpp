@@ -173,7 +173,9 @@ void tellEffects(const Solution& solution, DiscrepancyResult& result) {
   result.gap.rms_after_um = last.fit_rms;
   result.gap.heldout_rms_before_um = before.holdout_rms;
   result.gap.heldout_rms_after_um = last.holdout_rms;
-  if (!has_holdout && !result.effects.empty()) {
+  if (!has_holdout && result.effects.empty()) {
+    result.gap.heldout_rms_before_um = result.gap.heldout_rms_after_um = std::nan("");
+  } else if (!has_holdout) {
     result.gap.heldout_rms_before_um = result.effects.front().heldout_rms_before_um;
     result.gap.heldout_rms_after_um = result.effects.back().heldout_rms_after_um;
   }

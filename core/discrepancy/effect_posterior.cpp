@@ -771,6 +771,13 @@ EffectPosterior PosteriorSearch::run(const JobContext& job, const ModelTerm* off
         sets.try_emplace(keyOf(s.fit.terms), s.evidence, std::set<std::string>(ids.begin(), ids.end()));
     if (!fresh) at->second.first = std::max(at->second.first, s.evidence);
   }
+  // Effects that nobody had to follow are weighed by their fit on the grid, alone beside what the user put in.
+  for (const CandidateFit& c : library_->sweep(given(start.fit), idsOf(start.fit.terms), job)) {
+    std::vector<ModelTerm> together = start.fit.terms;
+    together.push_back(c.term);
+    const std::vector<std::string> ids = idsOf(together);
+    sets.try_emplace(keyOf(together), start.evidence + c.evidence, std::set<std::string>(ids.begin(), ids.end()));
+  }
   double highest = -1e300;
   for (const auto& [key, set] : sets) highest = std::max(highest, set.first);
   double total = 0.0;

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <Eigen/QR>
+#include <Eigen/SVD>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -294,6 +295,53 @@ std::string describedRemainder(const ResidualProblem& problem, const JointFit& f
   return joinedList(parts);
 }
 
+/// Scatter that is far from what is stated because most of it is one pattern over the points that comes and goes from
+/// state to state, too fast to be smooth: one time history times one pattern against noise that is as large, by BIC.
+std::string patternInScatter(const ResidualProblem& problem, const JointFit& fit) {
+  constexpr double implausible_scale = 2.0;  // rms of the readings over their stated sigma
+  constexpr Index least = 4;                 // points, and states
+  constexpr double far_out = 5.0;            // robust standard deviations: one reading far out is no pattern
+  Eigen::VectorXd left = problem.without(fit.contribution);
+  left -= problem.nuisancePart(left).values;
+  std::vector<std::string> parts;
+  for (const Component c : all_components) {
+    std::map<int, Index> row;
+    std::map<int, Index> column;
+    std::vector<double> sizes;
+    double power = 0.0;
+    for (std::size_t u = 0; u < problem.component.size(); ++u) {
+      if (problem.component[u] != c) continue;
+      const auto unit = static_cast<Index>(u);
+      power += std::pow(left[unit] / problem.sigma[unit], 2);
+      row.try_emplace(problem.series[u], static_cast<Index>(row.size()));
+      column.try_emplace(problem.epoch[u], static_cast<Index>(column.size()));
+      sizes.push_back(std::abs(left[static_cast<Index>(u)]));
+    }
+    const auto points = static_cast<Index>(row.size());
+    const auto states = static_cast<Index>(column.size());
+    if (points < least || states < least) continue;
+    if (power < implausible_scale * implausible_scale * static_cast<double>(sizes.size())) continue;
+    std::nth_element(sizes.begin(), sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2), sizes.end());
+    const double most = far_out * 1.4826 * sizes[sizes.size() / 2];
+    Eigen::MatrixXd moved = Eigen::MatrixXd::Zero(points, states);
+    for (std::size_t u = 0; u < problem.component.size(); ++u) {
+      if (problem.component[u] != c) continue;
+      moved(row[problem.series[u]], column[problem.epoch[u]]) = std::clamp(left[static_cast<Index>(u)], -most, most);
+    }
+    moved.colwise() -= moved.rowwise().mean().eval();
+    const Eigen::VectorXd singular = Eigen::BDCSVD<Eigen::MatrixXd>(moved).singularValues();
+    const auto readings = static_cast<double>(points * states);
+    const double all = singular.squaredNorm();
+    const double beside = all - singular[0] * singular[0];
+    const double evidence = readings * std::log(all / std::max(1e-12 * all, beside)) -
+                            static_cast<double>(points + states) * std::log(readings);
+    if (!(all > 0.0) || evidence < remainder_evidence) continue;
+    parts.push_back(fmt::format("{} of all points moves in one pattern from state to state, {:.2f} {} rms", toString(c),
+                                singular[0] / std::sqrt(readings), printedUnit(unitOf(c))));
+  }
+  return joinedList(parts);
+}
+
 }  // namespace
 
 Judgement judge(const ResidualProblem& problem, const EffectSearch& search, const EffectPosterior& posterior,
@@ -496,7 +544,8 @@ Judgement judge(const ResidualProblem& problem, const EffectSearch& search, cons
   }
   ambiguous = std::any_of(out.names.begin(), out.names.end(), [](const NamedEffect& n) { return !n.rivals.empty(); });
   if (!unnamed.empty() && noiseExplains(problem, fit, out.named)) unnamed.clear();
-  const std::string left = describedRemainder(problem, fit, remainder);
+  std::string left = describedRemainder(problem, fit, remainder);
+  if (left.empty() && unnamed.empty() && out.names.empty()) left = patternInScatter(problem, fit);
   if (!unnamed.empty()) {
     out.leftover = fmt::format("what {} would explain, but cannot be named{}", joinedList(unnamed),
                                left.empty() ? "" : ", and " + left);

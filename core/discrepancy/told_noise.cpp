@@ -10,6 +10,7 @@
 #include <set>
 
 #include "core/base/text.h"
+#include "core/math/distributions.h"
 
 namespace spindrift {
 namespace {
@@ -23,8 +24,24 @@ std::size_t at(Index unit) {
   return static_cast<std::size_t>(unit);
 }
 
-/// Components of which so many readings lie far from the others that no weighting helps. The scatter of the others is
-/// taken from the smallest quarter of what is left, which even half a component of outliers does not reach.
+/// The part of sorted sizes that lies more than `far_off` standard deviations of the others out. The scatter of the
+/// others is taken from the smallest quarter of all, which even half of outliers does not reach: that is a larger part
+/// of the others the more lie outside.
+double partFarOff(const std::vector<double>& sizes) {
+  const auto count = static_cast<double>(sizes.size());
+  double outside = 0.5;
+  constexpr int most_rounds = 20;
+  for (int round = 0; round < most_rounds; ++round) {
+    const double sigma = sizes[sizes.size() / 4] / normalQuantile(0.5 + 0.125 / (1.0 - outside));
+    const auto beyond = sizes.end() - std::upper_bound(sizes.begin(), sizes.end(), far_off * sigma);
+    const double found = std::min(0.5, static_cast<double>(beyond) / count);
+    if (found == outside) break;
+    outside = found;
+  }
+  return outside;
+}
+
+/// Components of which so many readings lie far from the others that no weighting helps.
 void warnAboutOutliers(const ResidualProblem& problem, const Eigen::VectorXd& left,
                        std::vector<std::string>& warnings) {
   // Heavy tails alone bring less than 0.05.
@@ -36,9 +53,7 @@ void warnAboutOutliers(const ResidualProblem& problem, const Eigen::VectorXd& le
     }
     if (sizes.size() < 20) continue;
     std::sort(sizes.begin(), sizes.end());
-    const double limit = far_off * sizes[sizes.size() / 4] / 0.6745;
-    const auto outside = sizes.end() - std::upper_bound(sizes.begin(), sizes.end(), limit);
-    const double part = static_cast<double>(outside) / static_cast<double>(sizes.size());
+    const double part = partFarOff(sizes);
     if (part < too_many) continue;
     warnings.push_back(
         fmt::format("{:.0f} % of the readings of {} lie more than {:.0f} times as far off as the others: too many to "

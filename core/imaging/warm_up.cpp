@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "core/base/text.h"
@@ -271,7 +273,11 @@ WarmUpResult judgeWarmUp(const ObservationSet& observations, const std::string& 
   }
   constexpr const char* advice =
       "measure one point of the machine at rest again and again, or state that the instrument was warm";
-  if (log == nullptr || log->empty() || log->time_s().front() > from || log->time_s().back() < to) {
+  // States hold: the last row of a log says what was until the next one would have come.
+  const auto holdsUntil = [](const std::vector<double>& time_s) {
+    return time_s.size() < 2 ? time_s.back() : 2.0 * time_s.back() - time_s[time_s.size() - 2];
+  };
+  if (log == nullptr || log->empty() || log->time_s().front() > from || holdsUntil(log->time_s()) < to) {
     result.cause_reason = fmt::format(
         "Without a log of what the machine did meanwhile, its own thermal drift and a drift of the instrument cannot "
         "be separated; {}.",
@@ -280,7 +286,7 @@ WarmUpResult judgeWarmUp(const ObservationSet& observations, const std::string& 
   }
   // Rows within the series, and the state that held when it began.
   std::vector<std::string> at_work;
-  std::vector<std::string> warming;
+  std::vector<std::pair<double, std::string>> warming;  // by how much, K
   bool motion_logged = false;
   for (const std::string& name : log->names()) {
     const bool temperature = OperatingLog::isTemperature(name);
@@ -300,23 +306,26 @@ WarmUpResult judgeWarmUp(const ObservationSet& observations, const std::string& 
     }
     constexpr double creep = 1.0;  // rpm or mm/min
     if (motion && std::max(std::abs(low), std::abs(high)) > creep) at_work.push_back(driversInWords(name));
-    if (temperature && high - low > steady_K)
-      warming.push_back(fmt::format("{} by {:.1f} K", driversInWords(name), high - low));
+    if (temperature && high - low > steady_K) warming.emplace_back(high - low, driversInWords(name));
   }
   if (at_work.empty() && warming.empty() && motion_logged) {
     result.cause = WarmUpCause::Instrument;
     result.cause_reason = "The machine was at rest at constant temperatures: the drift is that of the instrument.";
     return result;
   }
+  std::sort(warming.begin(), warming.end(), std::greater<>());
   constexpr std::size_t most_named = 3;
   if (warming.size() > most_named) warming.resize(most_named);
+  std::vector<std::string> temperatures;
+  for (const auto& [change_K, name] : warming) temperatures.push_back(fmt::format("{} by {:.1f} K", name, change_K));
   std::string why = "the log does not show whether it was at rest";
   if (!at_work.empty() && !warming.empty()) {
-    why = fmt::format("it was at work ({}), {} changed", joinedList(at_work), joinedList(warming));
+    why =
+        fmt::format("it was at work ({}) and temperatures changed ({})", joinedList(at_work), joinedList(temperatures));
   } else if (!at_work.empty()) {
     why = fmt::format("it was at work ({})", joinedList(at_work));
   } else if (!warming.empty()) {
-    why = fmt::format("{} changed", joinedList(warming));
+    why = fmt::format("temperatures changed ({})", joinedList(temperatures));
   }
   result.cause_reason = fmt::format(
       "The thermal drift of the machine and a drift of the instrument cannot be separated here, because {}; {}.", why,

@@ -334,8 +334,13 @@ StateDifferences differencesFromReference(const ObservationSet& set, const std::
     change.warnings.push_back(fmt::format(
         "{} is the reference state: its values are zero up to an unknown constant, not deviations.", change.state));
   }
-  using Key = std::tuple<std::string, Component, double>;
-  const auto keyOf = [](const Observation& o) { return Key(o.point, o.component, o.c_deg); };
+  // A reading approached from another side, or with another tool, is another measurand.
+  using Key = std::tuple<std::string, Component, double, std::array<double, 6>>;
+  const auto keyOf = [](const Observation& o) {
+    return Key(o.point, o.component, o.c_deg,
+               {o.approach.x(), o.approach.y(), o.approach.z(), o.tool_offset_mm.x(), o.tool_offset_mm.y(),
+                o.tool_offset_mm.z()});
+  };
   std::map<Key, std::vector<std::size_t>> reference_rows;
   std::vector<std::size_t> in_state;
   bool rotations = false;

@@ -161,6 +161,7 @@ ObservationSet ObservationSet::read(const std::filesystem::path& file) {
     const std::array<std::size_t, 2> index{entries.column("row"), entries.column("column")};
     const std::size_t number = entries.column("covariance");
     std::vector<CovarianceEntry> stated;
+    std::map<std::pair<std::size_t, std::size_t>, std::pair<double, std::size_t>> known;  // value and its entry
     for (std::size_t i = 0; i < entries.rowCount(); ++i) {
       std::array<std::size_t, 2> rc{};
       for (int k = 0; k < 2; ++k) {
@@ -179,7 +180,30 @@ ObservationSet ObservationSet::read(const std::filesystem::path& file) {
                          fmt::format("variance {} of row {} is not allowed; allowed: greater than zero.",
                                      entries.text(i, number), entries.text(i, index[0])));
       }
+      // One pair may be given as (r, c) and as (c, r), not as two values.
+      const auto [before, fresh] = known.try_emplace(std::minmax(rc[0], rc[1]), covariance, i);
+      if (!fresh && before->second.first != covariance) {
+        throw InputError(entries.place(i, number),
+                         fmt::format("covariance {} of rows {} and {} is not allowed: entry {} gives {}; allowed: one "
+                                     "value for a pair.",
+                                     entries.text(i, number), entries.text(i, index[0]), entries.text(i, index[1]),
+                                     before->second.second + 1, entries.text(before->second.second, number)));
+      }
       stated.push_back({rc[0], rc[1], covariance});
+    }
+    // Variances may stand anywhere in the file: correlations are judged when all are known.
+    const auto variance = [&](std::size_t row) {
+      const auto own = known.find({row, row});
+      return own == known.end() ? set.rows[row].sigma * set.rows[row].sigma : own->second.first;
+    };
+    for (const auto& [pair, entry] : known) {
+      constexpr double rounding = 1e-6;
+      const double most = std::sqrt(variance(pair.first) * variance(pair.second));
+      if (pair.first == pair.second || std::abs(entry.first) <= (1.0 + rounding) * most) continue;
+      throw InputError(entries.place(entry.second, number),
+                       fmt::format("covariance {} of rows {} and {} is not allowed; allowed: -{:.6g} to {:.6g}, the "
+                                   "product of their standard uncertainties.",
+                                   entries.text(entry.second, number), pair.first + 1, pair.second + 1, most, most));
     }
     set.setCovariances(stated);
   }

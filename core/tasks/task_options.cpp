@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
+#include <set>
 
 #include "core/base/atomic_file.h"
 #include "core/base/error.h"
@@ -93,8 +95,33 @@ std::filesystem::path simulatorFile(const Session& session, const std::string& n
   return whole(session.folder()) / name;
 }
 
+namespace {
+
+/// Files within `folder` that strings of the document name.
+void addNamedFiles(const nlohmann::json& node, const std::filesystem::path& folder,
+                   std::set<std::filesystem::path>& files) {
+  if (node.is_structured()) {
+    for (const nlohmann::json& part : node) addNamedFiles(part, folder, files);
+    return;
+  }
+  if (!node.is_string()) return;
+  const std::filesystem::path name = std::filesystem::path(node.get<std::string>()).lexically_normal();
+  std::error_code error;
+  if (name.empty() || name.is_absolute() || *name.begin() == "..") return;
+  if (std::filesystem::is_regular_file(folder / name, error)) files.insert(name);
+}
+
+}  // namespace
+
 std::string simulatorFingerprint(const std::filesystem::path& file) try {
-  return Fingerprint().addFile(file).text();
+  Fingerprint fingerprint;
+  fingerprint.addFile(file);
+  // The scenario, the templates and the tables that it names belong to it.
+  std::set<std::filesystem::path> files;
+  const nlohmann::json document = nlohmann::json::parse(readFile(file), nullptr, false);
+  if (!document.is_discarded()) addNamedFiles(document, file.parent_path(), files);
+  for (const std::filesystem::path& name : files) fingerprint.addFile(file.parent_path() / name);
+  return fingerprint.text();
 } catch (const InputError&) {
   return {};
 }

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -352,8 +353,10 @@ void makeControlTables(const MachineDescription& machine, const PreparedModel& p
        fmt::format(
            "$AN_CEC in mm, one table for each axis that is moved over the position of another: the deviation itself, "
            "{}, zero at the reference position; a positive value moves the axis in the negative direction. With the "
-           "tables of $AA_ENC_COMP all displacements are compensated. It stands in place of the tables that the "
-           "control has. Beyond what was measured it is extrapolated; the ISO 230-1 tables say where.",
+           "tables of $AA_ENC_COMP all displacements along the axes through the reference position are compensated; "
+           "what depends on two axes together (the higher-order terms) is in no such table. It stands in place of "
+           "the tables that the control has. Beyond what was measured it is extrapolated; the ISO 230-1 tables say "
+           "where.",
            relative),
        {}},
       [&] {
@@ -606,9 +609,16 @@ CompensationPlan planCompensation(const Campaign& campaign, const ObservationSet
   CompensationPlan plan;
   plan.state = chosenState(observations, request.state);
   plan.reference_mm.setZero();
+  // The middle of the travels, or what was measured next to it: nothing is known of a height without a point.
+  Eigen::AlignedBox3d measured;
+  for (const Observation& o : observations.rows) {
+    if (o.state == plan.state && o.use != ObservationUse::Exclude) measured.extend(o.position_mm);
+  }
   for (int i = 0; i < 3; ++i) {
     if (const LinearAxis* axis = campaign.machine.findAxis(axis_names[static_cast<std::size_t>(i)])) {
-      plan.reference_mm[i] = 0.5 * (axis->travel_mm[0] + axis->travel_mm[1]);
+      const double middle_mm = 0.5 * (axis->travel_mm[0] + axis->travel_mm[1]);
+      plan.reference_mm[i] =
+          measured.isEmpty() ? middle_mm : std::clamp(middle_mm, measured.min()[i], measured.max()[i]);
     }
   }
   if (request.reference_mm) plan.reference_mm = *request.reference_mm;

@@ -123,7 +123,10 @@ Report reportOfCampaign(const Campaign& campaign, const ReportOptions& options, 
       [&](Report& document) { addPlan(document, stored.plan, campaign); },
       [&](Report& document) { addCaptures(document, campaign, job); },
       [&](Report& document) { addInstrumentState(document, stored, !input.observations.rows.empty()); }};
-  if (campaign.captureList("fiducials.csv") && spreadsOverTheTable(input.observations)) {
+  // Of captures of fiducials, or of a table that was measured by other means.
+  const bool other_captures = campaign.captureList("touches.csv") || campaign.captureList("scans.csv");
+  const bool of_table = campaign.captureList("fiducials.csv") || (!other_captures && campaign.simulation.empty());
+  if (of_table && spreadsOverTheTable(input.observations)) {
     input.sections.push_back({"Thermal error of the table", [&](Report& document) {
                                 const std::vector<std::string> states = input.observations.states();
                                 for (std::size_t i = 1; i < states.size(); ++i) {

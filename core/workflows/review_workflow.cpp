@@ -102,7 +102,8 @@ void findLargest(ReviewPicture& picture) {
 
 /// Puts the model's value (or measured minus model) in the place of the measured one.
 void applyModel(ReviewPicture& picture, const NineParameterFit& fit, bool residual) {
-  const NineParameterModel model = fit.model();
+  // With the misfit in its uncertainty, as the map and the compensation have it.
+  const NineParameterModel model = fit.predictingModel();
   for (ReviewPoint& p : picture.points) {
     DeviationQuery here;
     here.state = fit.state;

@@ -20,14 +20,38 @@
 namespace spindrift {
 namespace {
 
-double spreadOf(const std::vector<double>& values) {
+/// rms about one constant: deviations are known up to one.
+double rmsAbout(double constant, const std::vector<double>& values) {
   std::vector<double> finite;
   for (const double v : values)
-    if (std::isfinite(v)) finite.push_back(v);
-  if (finite.empty()) return std::nan("");
-  const double centre = mean(finite);
-  for (double& v : finite) v -= centre;
-  return rootMeanSquare(finite);
+    if (std::isfinite(v)) finite.push_back(v - constant);
+  return finite.empty() ? std::nan("") : rootMeanSquare(finite);
+}
+
+/// The free constant of a deviation: its mean over the rows that trained the model, over all where none did. What has
+/// moved since then is an error of the compensation.
+double constantOf(const std::vector<double>& values, const std::vector<char>& trained) {
+  std::vector<double> in;
+  std::vector<double> all;
+  for (std::size_t r = 0; r < values.size(); ++r) {
+    if (!std::isfinite(values[r])) continue;
+    all.push_back(values[r]);
+    if (trained[r] != 0) in.push_back(values[r]);
+  }
+  if (all.empty()) return 0.0;
+  return in.empty() ? mean(all) : mean(in);
+}
+
+/// Whether both are one log: the same file, or another with the same content. Where the first is gone, its name says
+/// it.
+bool sameLog(const std::string& source, const std::filesystem::path& file) {
+  if (file.empty()) return true;
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(source, error))
+    return std::filesystem::path(source).filename() == file.filename();
+  if (std::filesystem::equivalent(source, file, error)) return true;
+  return std::filesystem::file_size(source, error) == std::filesystem::file_size(file, error) &&
+         readFile(source) == readFile(file);
 }
 
 /// The finite values of the rows that trained nothing.
@@ -304,7 +328,7 @@ CompensateResult compensateLog(const TimeSeries& series, const ThermalModel& mod
     if (k % 10000 == 0) job.report(static_cast<double>(k) / static_cast<double>(steps), "compensating");
   }
   // Times mean the same rows only in the log that the model was identified from.
-  const bool same_log = std::filesystem::path(model.source).filename() == series.file.filename() || series.file.empty();
+  const bool same_log = sameLog(model.source, series.file);
   std::vector<char> trained(series.time_s.size(), 0);
   std::size_t count = 0;
   for (std::size_t r = 0; r < trained.size() && same_log; ++r) {
@@ -331,14 +355,16 @@ CompensateResult compensateLog(const TimeSeries& series, const ThermalModel& mod
           steps - 1, static_cast<std::size_t>((series.time_s[r] - series.time_s.front()) / result.cycle_s + 0.5));
       after[r] = measured->values[r] + output.compensation[k];
     }
-    output.rms_before = spreadOf(measured->values);
-    output.rms_after = spreadOf(after);
+    const double constant_before = constantOf(measured->values, trained);
+    const double constant_after = constantOf(after, trained);
+    output.rms_before = rmsAbout(constant_before, measured->values);
+    output.rms_after = rmsAbout(constant_after, after);
     output.reduction_percent = 100.0 * (1.0 - output.rms_after / output.rms_before);
     CompensateResult::Output::Unseen& unseen = output.unseen;
     const std::vector<double> before = unseenOf(measured->values, trained);
     unseen.rows = before.size();
-    unseen.rms_before = spreadOf(before);
-    unseen.rms_after = spreadOf(unseenOf(after, trained));
+    unseen.rms_before = rmsAbout(constant_before, before);
+    unseen.rms_after = rmsAbout(constant_after, unseenOf(after, trained));
     unseen.reduction_percent = 100.0 * (1.0 - unseen.rms_after / unseen.rms_before);
   }
   return result;
@@ -359,8 +385,9 @@ nlohmann::json CompensateResult::json() const {
       {"sign_convention",
        "compensation = minus the predicted deviation, to be added to the command; deviation = actual minus commanded, "
        "as "
-       "the log measures it; rms_after is of measured deviation plus compensation; reduction_percent is positive where "
-       "the rms became smaller"}};
+       "the log measures it; rms_after is of measured deviation plus compensation, both about their mean over the rows "
+       "that trained the model (over all rows where none did); reduction_percent is positive where the rms became "
+       "smaller"}};
   for (const Output& o : outputs) {
     out["outputs"].push_back({{"name", o.name},
                               {"rms_before", jsonNumber(o.rms_before)},

@@ -3451,10 +3451,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Scans werden verglichen</translation>
     </message>
     <message>
-        <source>compensation = minus the predicted deviation, to be added to the command; deviation = actual minus commanded, as the log measures it; rms_after is of measured deviation plus compensation; reduction_percent is positive where the rms became smaller</source>
-        <translation>Kompensation = minus die vorhergesagte Abweichung, zum Sollwert zu addieren; Abweichung = Ist minus Soll, wie das Protokoll sie misst; rms_after ist von gemessener Abweichung plus Kompensation; reduction_percent ist positiv, wo der rms kleiner wurde</translation>
-    </message>
-    <message>
         <source>compensation = minus the predicted deviation; residual = recorded minus predicted, each in the sign of its column; a reduction is positive where the rms became smaller, negative where it became larger</source>
         <translation>Kompensation = minus die vorhergesagte Abweichung; Residuum = aufgezeichnet minus vorhergesagt, jeweils im Vorzeichen der Spalte; eine Minderung ist positiv, wo der rms kleiner wurde, negativ, wo er größer wurde</translation>
     </message>
@@ -4553,10 +4549,6 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>it was at work ({})</source>
         <translation>sie in Betrieb war ({})</translation>
-    </message>
-    <message>
-        <source>it was at work ({}), {} changed</source>
-        <translation>sie in Betrieb war ({}), {} sich änderte</translation>
     </message>
     <message>
         <source>it was closed</source>
@@ -7315,10 +7307,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>{} kann nicht geschrieben werden: {}.</translation>
     </message>
     <message>
-        <source>{} changed</source>
-        <translation>{} sich änderte</translation>
-    </message>
-    <message>
         <source>{} changes no prediction: it keeps its value {}.</source>
         <translation>{} ändert keine Vorhersage: der Wert {} bleibt.</translation>
     </message>
@@ -7700,11 +7688,11 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>{} observations are later than the end of the log and are not fitted.</source>
-        <translation>{} Beobachtungen sind später als das Ende des Protokolls und werden nicht angepasst.</translation>
+        <translation>{} Beobachtungen sind später als das Ende des Protokolls und werden nicht zur Anpassung verwendet.</translation>
     </message>
     <message>
         <source>{} observations lie between two rows of the log of different spindle speed and are not fitted: when it changed is not known.</source>
-        <translation>{} Beobachtungen liegen zwischen zwei Zeilen des Protokolls mit verschiedener Spindeldrehzahl und werden nicht angepasst: der Zeitpunkt der Änderung ist nicht bekannt.</translation>
+        <translation>{} Beobachtungen liegen zwischen zwei Zeilen des Protokolls mit verschiedener Spindeldrehzahl und werden nicht zur Anpassung verwendet: der Zeitpunkt der Änderung ist nicht bekannt.</translation>
     </message>
     <message>
         <source>{} of 3 axes are switched by it</source>
@@ -7912,7 +7900,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>{} seems to have grown by {} in {}, but its expansion coefficient and temperature say {}: the axis that measures it grows as well, the expansion coefficient is wrong, or the sensor is not on the artefact.</source>
-        <translation>{} ist anscheinend um {} in {} gewachsen, aber Ausdehnungskoeffizient und Temperatur ergeben {}: die messende Achse wächst ebenfalls, der Ausdehnungskoeffizient ist falsch, oder der Sensor sitzt nicht auf dem Normal.</translation>
+        <translation>{} ist anscheinend um {} in {} gewachsen, aber Ausdehnungskoeffizient und Temperatur ergeben {}: die messende Achse wächst ebenfalls, der Ausdehnungskoeffizient ist falsch, oder der Sensor sitzt nicht auf dem Prüfkörper.</translation>
     </message>
     <message>
         <source>{} sends a document that is not XML.</source>
@@ -9769,10 +9757,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>eine Erfassungseinheit von {:g} µm ist nicht erlaubt; erlaubt: 0,001 bis 100.</translation>
     </message>
     <message>
-        <source>$AN_CEC in mm, one table for each axis that is moved over the position of another: the deviation itself, {}, zero at the reference position; a positive value moves the axis in the negative direction. With the tables of $AA_ENC_COMP all displacements are compensated. It stands in place of the tables that the control has. Beyond what was measured it is extrapolated; the ISO 230-1 tables say where.</source>
-        <translation>$AN_CEC in mm, eine Tabelle für jede Achse, die über der Position einer anderen bewegt wird: die Abweichung selbst, {}, null an der Bezugsposition; ein positiver Wert bewegt die Achse in negativer Richtung. Mit den Tabellen von $AA_ENC_COMP sind alle Verschiebungen kompensiert. Sie steht anstelle der Tabellen, die die Steuerung hat. Jenseits des Gemessenen ist sie extrapoliert; die Tabellen nach ISO 230-1 sagen, wo.</translation>
-    </message>
-    <message>
         <source>Program (G10 L50) with steps in detection units of {:g} µm from point to point, {}: a positive value moves the axis to {}, as stated. Points, distance and magnification are those of its head (parameters 3620 to 3624). It stands in place of the data that the control has. Beyond what was measured it is extrapolated; the ISO 230-1 tables say where.</source>
         <translation>Programm (G10 L50) mit Schritten in Erfassungseinheiten von {:g} µm von Punkt zu Punkt, {}: Ein positiver Wert bewegt die Achse nach {}, wie angegeben. Punkte, Abstand und Faktor sind die seines Kopfes (Parameter 3620 bis 3624). Es steht anstelle der Daten, die die Steuerung hat. Jenseits des Gemessenen ist es extrapoliert; die Tabellen nach ISO 230-1 sagen, wo.</translation>
     </message>
@@ -9867,6 +9851,34 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>step-response model</source>
         <translation>Sprungantwortmodell</translation>
+    </message>
+    <message>
+        <source>{} of all points moves in one pattern from state to state, {:.2f} {} rms</source>
+        <translation>{} aller Punkte bewegt sich von Zustand zu Zustand in einem gemeinsamen Muster, {:.2f} {} rms</translation>
+    </message>
+    <message>
+        <source>it was at work ({}) and temperatures changed ({})</source>
+        <translation>sie in Betrieb war ({}) und sich Temperaturen änderten ({})</translation>
+    </message>
+    <message>
+        <source>temperatures changed ({})</source>
+        <translation>sich Temperaturen änderten ({})</translation>
+    </message>
+    <message>
+        <source>covariance {} of rows {} and {} is not allowed: entry {} gives {}; allowed: one value for a pair.</source>
+        <translation>Kovarianz {} der Zeilen {} und {} ist nicht zulässig: Eintrag {} nennt {}; zulässig: ein Wert für ein Paar.</translation>
+    </message>
+    <message>
+        <source>covariance {} of rows {} and {} is not allowed; allowed: -{:.6g} to {:.6g}, the product of their standard uncertainties.</source>
+        <translation>Kovarianz {} der Zeilen {} und {} ist nicht zulässig; zulässig: -{:.6g} bis {:.6g}, das Produkt ihrer Standardunsicherheiten.</translation>
+    </message>
+    <message>
+        <source>$AN_CEC in mm, one table for each axis that is moved over the position of another: the deviation itself, {}, zero at the reference position; a positive value moves the axis in the negative direction. With the tables of $AA_ENC_COMP all displacements along the axes through the reference position are compensated; what depends on two axes together (the higher-order terms) is in no such table. It stands in place of the tables that the control has. Beyond what was measured it is extrapolated; the ISO 230-1 tables say where.</source>
+        <translation>$AN_CEC in mm, eine Tabelle für jede Achse, die über der Position einer anderen bewegt wird: die Abweichung selbst, {}, null an der Bezugsposition; ein positiver Wert bewegt die Achse in negativer Richtung. Mit den Tabellen von $AA_ENC_COMP sind alle Verschiebungen entlang der Achsen durch die Bezugsposition kompensiert; was von zwei Achsen zugleich abhängt (die Terme höherer Ordnung), steht in keiner solchen Tabelle. Sie steht anstelle der Tabellen, die die Steuerung hat. Jenseits des Gemessenen ist sie extrapoliert; die Tabellen nach ISO 230-1 sagen, wo.</translation>
+    </message>
+    <message>
+        <source>compensation = minus the predicted deviation, to be added to the command; deviation = actual minus commanded, as the log measures it; rms_after is of measured deviation plus compensation, both about their mean over the rows that trained the model (over all rows where none did); reduction_percent is positive where the rms became smaller</source>
+        <translation>Kompensation = minus die vorhergesagte Abweichung, zum Sollwert zu addieren; Abweichung = Ist minus Soll, wie das Protokoll sie misst; rms_after ist von gemessener Abweichung plus Kompensation, beide um ihren Mittelwert über die Zeilen, die das Modell trainiert haben (über alle Zeilen, wo es keine gibt); reduction_percent ist positiv, wo der rms kleiner wurde</translation>
     </message>
 </context>
 <context>
@@ -10012,8 +10024,8 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>&lt;i&gt;Differenz = Bereich − Bereich 1;&#xa0; u(Differenz)² = u(Bereich)² + u(Bereich 1)²&lt;/i&gt;</translation>
     </message>
     <message>
-        <source>&lt;i&gt;ex = EX − EC y + EB z + α&lt;sub&gt;X&lt;/sub&gt; x,&#xa0; ey = EY + EC x − EA z − EC0Y … + α&lt;sub&gt;Y&lt;/sub&gt; y,&#xa0; ez = EZ − EB x + EA y&lt;/i&gt;</source>
-        <translation>&lt;i&gt;ex = EX − EC y + EB z + α&lt;sub&gt;X&lt;/sub&gt; x,&#xa0; ey = EY + EC x − EA z − EC0Y … + α&lt;sub&gt;Y&lt;/sub&gt; y,&#xa0; ez = EZ − EB x + EA y&lt;/i&gt;</translation>
+        <source>&lt;i&gt;ex = EX − (EC + EC0Y) y + EB z + α&lt;sub&gt;X&lt;/sub&gt; x,&#xa0; ey = EY + EC x − EA z + α&lt;sub&gt;Y&lt;/sub&gt; y,&#xa0; ez = EZ − EB x + EA y&lt;/i&gt;</source>
+        <translation>&lt;i&gt;ex = EX − (EC + EC0Y) y + EB z + α&lt;sub&gt;X&lt;/sub&gt; x,&#xa0; ey = EY + EC x − EA z + α&lt;sub&gt;Y&lt;/sub&gt; y,&#xa0; ez = EZ − EB x + EA y&lt;/i&gt;</translation>
     </message>
     <message>
         <source>&lt;i&gt;met: |residual| + U ≤ goal;&#xa0; not met: |residual| − U &amp;gt; goal;&#xa0; U = 2 u&lt;/i&gt;</source>
@@ -10225,7 +10237,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>Striped areas of the map lie outside the measured points; faded ones are within two standard uncertainties of zero.</source>
-        <translation>Gestreifte Bereiche der Karte liegen außerhalb der gemessenen Punkte; verblasste liegen innerhalb von zwei Standardunsicherheiten um null.</translation>
+        <translation>Schraffierte Bereiche der Karte liegen außerhalb der gemessenen Punkte; blasse liegen innerhalb von zwei Standardunsicherheiten um null.</translation>
     </message>
     <message>
         <source>The first to break is what reads all campaigns: the list without a machine (0.2 s for 14,000; ten minutes for all) and the list of machines, which reads every start (0.03 s for 14,000; more than a minute for all). From about 300,000 campaigns on, name the machine, and keep the last start of each machine in its row.</source>
@@ -13323,11 +13335,11 @@ einsatz</translation>
     </message>
     <message>
         <source>Confidence %1 for the first. Adding all of them takes the rms from %2 to %3; the noise alone is %4. %5</source>
-        <translation>Konfidenz %1 für den ersten Effekt. Das Hinzufügen aller senkt den rms von %2 auf %3; das Rauschen allein beträgt %4. %5</translation>
+        <translation>Konfidenz %1 für den ersten Effekt. Das Hinzufügen aller senkt den Effektivwert (rms) von %2 auf %3; das Rauschen allein beträgt %4. %5</translation>
     </message>
     <message>
         <source>Confidence %1. Adding it takes the rms from %2 to %3; the noise alone is %4. %5</source>
-        <translation>Konfidenz %1. Das Hinzufügen senkt den rms von %2 auf %3; das Rauschen allein beträgt %4. %5</translation>
+        <translation>Konfidenz %1. Das Hinzufügen senkt den Effektivwert (rms) von %2 auf %3; das Rauschen allein beträgt %4. %5</translation>
     </message>
     <message>
         <source>Search</source>
@@ -17739,7 +17751,7 @@ einsatz</translation>
     </message>
     <message>
         <source>Next</source>
-        <translation>Weiter</translation>
+        <translation>Nächste Messung</translation>
     </message>
     <message>
         <source>Model</source>
@@ -18955,7 +18967,7 @@ einsatz</translation>
     </message>
     <message>
         <source>Section</source>
-        <translation>Abschnitt</translation>
+        <translation>Schnitt</translation>
     </message>
     <message>
         <source>There is nothing to compare yet: evaluate the captures first.</source>

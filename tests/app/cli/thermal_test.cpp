@@ -367,10 +367,27 @@ TEST_F(Thermal, CompensationIsMinusThePredictedDeviation) {
   EXPECT_LT(unseen["rows"].get<std::size_t>(), linesOf(log).size() - 1);
   EXPECT_GT(unseen["rms_before"].get<double>(), unseen["rms_after"].get<double>());
   EXPECT_NE(j["unseen"].get<std::string>().find("rows outside"), std::string::npos) << j["unseen"];
+  // The same log is one under another name, another log is one under the same name.
   const auto copy = folder / "another.csv";
   writeText(copy, textOf(log));
-  const nlohmann::json other = jsonOf({"thermal", "compensate", copy.string(), "--model", model});
+  const nlohmann::json same = jsonOf({"thermal", "compensate", copy.string(), "--model", model});
+  EXPECT_EQ(same["unseen"], j["unseen"]);
+  std::filesystem::create_directory(folder / "other");
+  const auto namesake = folder / "other" / log.filename();
+  writeText(namesake, textOf(log) + "\n");
+  const nlohmann::json other = jsonOf({"thermal", "compensate", namesake.string(), "--model", model});
   EXPECT_NE(other["unseen"].get<std::string>().find("no row of this log trained it"), std::string::npos);
+  // A deviation that has moved since training is an error of the compensation, not its constant.
+  auto moved = linesOf(log);
+  const double to_s = nlohmann::json::parse(textOf(model)).at("train_s").at(1).get<double>();
+  for (std::size_t k = 1; k < moved.size(); ++k) {
+    if (std::stod(moved[k]) < to_s) continue;
+    const std::size_t at = moved[k].rfind(',') + 1;
+    moved[k] = moved[k].substr(0, at) + std::to_string(100.0 + std::stod(moved[k].substr(at)));
+  }
+  writeLines(log, moved);
+  const nlohmann::json after = runCli({"thermal", "compensate", log.string(), "--model", model, "--json", "-"}).json();
+  EXPECT_NEAR(after["outputs"][0]["unseen"]["rms_after"].get<double>(), 100.0, 10.0);
   // The spindle has grown upwards: the command goes down.
   const auto lines = linesOf(out);
   double lowest = 0.0;

@@ -248,8 +248,21 @@ TEST(WarmUp, TellsTheInstrumentFromTheMachineOrSaysThatItCannot) {
   EXPECT_THAT(unknown.cause_reason, HasSubstr("at work (spindle speed)"));
   EXPECT_THAT(unknown.cause_reason, HasSubstr("cannot be separated"));
   const OperatingLog warm = logOf(0.0, 8.0);
-  EXPECT_THAT(judgeWarmUp(drifting, "", {}, &warm).cause_reason, HasSubstr("temperature of column by 2.4 K changed"));
+  EXPECT_THAT(judgeWarmUp(drifting, "", {}, &warm).cause_reason,
+              HasSubstr("temperatures changed (temperature of column by 2.4 K)"));
   EXPECT_THAT(judgeWarmUp(drifting, "", {}, nullptr).cause_reason, HasSubstr("Without a log"));
+  // The largest changes are told, and the last row holds until the next one would have come.
+  double end = 0.0;
+  for (const WarmUpAxis& axis : unknown.axes) end = std::max(end, axis.time_s.empty() ? 0.0 : axis.time_s.back());
+  OperatingLog several({0.0, end - 60.0, end - 30.0});
+  several.setSignal("spindle_rpm", {0.0, 0.0, 0.0});
+  for (const auto& [name, change] :
+       {std::pair{"T_a_degC", 1.5}, {"T_b_degC", 2.5}, {"T_c_degC", 9.0}, {"T_d_degC", 3.5}})
+    several.setSignal(name, {20.0, 20.0 + change, 20.0 + change});
+  EXPECT_THAT(
+      judgeWarmUp(drifting, "", {}, &several).cause_reason,
+      HasSubstr("temperatures changed (temperature of c by 9.0 K, temperature of d by 3.5 K and temperature of b "
+                "by 2.5 K)"));
   OperatingLog temperatures_only({-600.0, 9000.0});
   temperatures_only.setSignal("T_column_degC", {20.0, 20.1});
   EXPECT_EQ(judgeWarmUp(drifting, "", {}, &temperatures_only).cause, WarmUpCause::Unknown);

@@ -84,6 +84,28 @@ TEST(NineParameterModel, RecoversTruthWithoutNoiseWhateverTheConstants) {
   EXPECT_LT(fit.condition_number, 100.0);
 }
 
+TEST(NineParameterModel, ReadingsFromTwoSidesAreEachReferencedToTheirOwn) {
+  Random random(7);
+  const NineVector truth = someTruth(random);
+  ObservationSet set;
+  for (const double side : {1.0, -1.0}) {
+    // A backlash of 10 um in every state.
+    const std::vector<double> constants(24, 5.0 * side);
+    ObservationSet one;
+    addState(one, "M0", eightFiducials(), NineVector::Zero(), constants, 0.3, 0.8, random);
+    addState(one, "M1", eightFiducials(), truth, constants, 0.3, 0.8, random);
+    for (Observation& o : one.rows) {
+      o.approach = {side, 0.0, 0.0};
+      set.rows.push_back(o);
+    }
+  }
+  const NineParameterFit fit = fitNineParameters(set, {.state = "M1", .points = {}});
+  ASSERT_EQ(fit.status, FitStatus::Converged) << fit.message;
+  EXPECT_LT(*fit.rms_fit_um, 1.0);
+  for (int i = 0; i < nine_parameter_count; ++i)
+    EXPECT_NEAR(fit.parameters[i], truth[i], 4.0 * std::sqrt(fit.covariance(i, i))) << nine_parameter_names[i];
+}
+
 TEST(NineParameterModel, TruthLiesWithin95PercentIntervalsIn94To96PercentOf2000Campaigns) {
   Random random(20260131);
   int inside = 0;

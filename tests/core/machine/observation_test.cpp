@@ -127,6 +127,23 @@ TEST(Observation, AVarianceOfTheFileReplacesSigma) {
   }
 }
 
+TEST(Observation, CovariancesThatCannotBeAreRefusedWithTheirPlace) {
+  const testing::TempFolder folder;
+  const auto refusal = [&](const std::string& covariances) {
+    try {
+      (void)readWith(folder, covariances);
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_THAT(refusal("1,3,0.1\n1,2,1.5\n"),
+              HasSubstr("covariance 1.5 of rows 1 and 2 is not allowed; allowed: -0.25 to 0.25"));
+  EXPECT_THAT(refusal("1,2,0.1\n2,1,-0.1\n"), HasSubstr("entry 1 gives 0.1; allowed: one value for a pair"));
+  // A larger variance further down makes room for it; a pair may be given twice as one value.
+  EXPECT_EQ(refusal("1,2,0.6\n2,1,0.6\n1,1,1\n2,2,1\n"), "");
+}
+
 TEST(Observation, SetsAreAppendedWithWhatTheyShare) {
   const testing::TempFolder folder;
   const ObservationSet one = readWith(folder, "1,2,0.1\n");

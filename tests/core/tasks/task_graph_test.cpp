@@ -119,6 +119,14 @@ TEST(TaskGraph, ASearchWithASimulatorHoldsForThatSimulatorAndForTheVersionItWrot
   EXPECT_THAT(s.status("simulation").changed, ElementsAre("the simulator"));
   s.folder_.write("s/sim/simulator.json", "one");
   EXPECT_TRUE(s.status("simulation").current);
+  // What it names belongs to it.
+  const std::string names_a_file = R"({"scenario": "scenario.json", "elsewhere": "../machine.json"})";
+  s.folder_.write("s/sim/simulator.json", names_a_file);
+  s.folder_.write("s/sim/scenario.json", "cold");
+  const std::string before = simulatorFingerprint(s.folder_ / "s/sim/simulator.json");
+  s.folder_.write("s/sim/scenario.json", "warm");
+  EXPECT_NE(simulatorFingerprint(s.folder_ / "s/sim/simulator.json"), before);
+  s.folder_.write("s/sim/simulator.json", "one");
   // It writes a new version, which is taken from then on.
   ResultOrigin origin = s.graph().origin("simulation");
   s.folder_.write("s/v2/simulator.json", "two");

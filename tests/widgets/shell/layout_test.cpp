@@ -30,7 +30,6 @@
 #include <QTimer>
 #include <QTreeView>
 #include <QVBoxLayout>
-#include <iostream>
 #include <set>
 #include <tuple>
 
@@ -408,7 +407,6 @@ class LayoutTest : public StoryTest, public ::testing::WithParamInterface<std::t
     const bool may_scroll =
         window_->help()->isVisible() && (currentLanguage() != QLatin1String("en") || window_->width() < 1440);
     EXPECT_GE(page->height(), page->minimumSizeHint().height()) << what << ": squeezed";
-    if (page->height() > area->viewport()->height()) std::cerr << "SCROLLS " << what << " by " << page->height() - area->viewport()->height() << "\n";
     expectHeights(what, *window_, window_->help()->isVisible());
     EXPECT_TRUE(may_scroll || page->minimumSizeHint().width() <= area->viewport()->width())
         << what << ": " << page->minimumSizeHint().width() << " of " << area->viewport()->width() << whatIsWide(*page);

@@ -58,6 +58,8 @@ std::span<const char* const> spindrift::gui::core_formats::machine() noexcept {
     QT_TRANSLATE_NOOP("core", "choosing positions"),
     QT_TRANSLATE_NOOP("core", "column tilt about {}"),
     QT_TRANSLATE_NOOP("core", "component \"{}\" is not known; allowed: EX, EY, EZ, EA, EB or EC."),
+    QT_TRANSLATE_NOOP("core", "covariance {} of rows {} and {} is not allowed: entry {} gives {}; allowed: one value for a pair."),
+    QT_TRANSLATE_NOOP("core", "covariance {} of rows {} and {} is not allowed; allowed: -{:.6g} to {:.6g}, the product of their standard uncertainties."),
     QT_TRANSLATE_NOOP("core", "cross beam"),
     QT_TRANSLATE_NOOP("core", "difference of two nine-parameter models of state {}"),
     QT_TRANSLATE_NOOP("core", "direction {} is not allowed; allowed: -1, 0 or +1."),

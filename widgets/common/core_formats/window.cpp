@@ -116,7 +116,7 @@ namespace {
     QT_TRANSLATE_NOOP("help", "<i>d(t) = a + b (1 − exp(−t / τ)),  settled when |b| / τ · exp(−t / τ) &lt; 1 µm/h</i>"),
     QT_TRANSLATE_NOOP("help", "<i>deviation = actual − commanded position of the tool relative to the table</i>"),
     QT_TRANSLATE_NOOP("help", "<i>difference = pane − pane 1;  u(difference)² = u(pane)² + u(pane 1)²</i>"),
-    QT_TRANSLATE_NOOP("help", "<i>ex = EX − EC y + EB z + α<sub>X</sub> x,  ey = EY + EC x − EA z − EC0Y … + α<sub>Y</sub> y,  ez = EZ − EB x + EA y</i>"),
+    QT_TRANSLATE_NOOP("help", "<i>ex = EX − (EC + EC0Y) y + EB z + α<sub>X</sub> x,  ey = EY + EC x − EA z + α<sub>Y</sub> y,  ez = EZ − EB x + EA y</i>"),
     QT_TRANSLATE_NOOP("help", "<i>met: |residual| + U ≤ goal;  not met: |residual| − U &gt; goal;  U = 2 u</i>"),
     QT_TRANSLATE_NOOP("help", "<i>residual = observation − prediction;  ΔBIC = Δχ² − k ln n,  above 10: strong evidence</i>"),
     QT_TRANSLATE_NOOP("help", "<i>usable when: code found, sharp, not over-exposed; touch within 5 standard deviations of its feature; scan complete</i>"),

@@ -9,7 +9,7 @@
 std::span<const char* const> spindrift::gui::core_formats::workflows() noexcept {
   static const char* const formats[] = {
     QT_TRANSLATE_NOOP("core", "$AA_ENC_COMP in mm: the deviation itself, {}, zero at the reference position; a positive value moves the axis in the negative direction. Add the values of a table that the control has. Measured from {:g} to {:g} mm; beyond that it is extrapolated."),
-    QT_TRANSLATE_NOOP("core", "$AN_CEC in mm, one table for each axis that is moved over the position of another: the deviation itself, {}, zero at the reference position; a positive value moves the axis in the negative direction. With the tables of $AA_ENC_COMP all displacements are compensated. It stands in place of the tables that the control has. Beyond what was measured it is extrapolated; the ISO 230-1 tables say where."),
+    QT_TRANSLATE_NOOP("core", "$AN_CEC in mm, one table for each axis that is moved over the position of another: the deviation itself, {}, zero at the reference position; a positive value moves the axis in the negative direction. With the tables of $AA_ENC_COMP all displacements along the axes through the reference position are compensated; what depends on two axes together (the higher-order terms) is in no such table. It stands in place of the tables that the control has. Beyond what was measured it is extrapolated; the ISO 230-1 tables say where."),
     QT_TRANSLATE_NOOP("core", "({} of {} are there)"),
     QT_TRANSLATE_NOOP("core", "({} so far)"),
     QT_TRANSLATE_NOOP("core", "({}, {:g} {} per {})"),
@@ -166,7 +166,7 @@ std::span<const char* const> spindrift::gui::core_formats::workflows() noexcept 
     QT_TRANSLATE_NOOP("core", "closed loop"),
     QT_TRANSLATE_NOOP("core", "column component"),
     QT_TRANSLATE_NOOP("core", "column time_s"),
-    QT_TRANSLATE_NOOP("core", "compensation = minus the predicted deviation, to be added to the command; deviation = actual minus commanded, as the log measures it; rms_after is of measured deviation plus compensation; reduction_percent is positive where the rms became smaller"),
+    QT_TRANSLATE_NOOP("core", "compensation = minus the predicted deviation, to be added to the command; deviation = actual minus commanded, as the log measures it; rms_after is of measured deviation plus compensation, both about their mean over the rows that trained the model (over all rows where none did); reduction_percent is positive where the rms became smaller"),
     QT_TRANSLATE_NOOP("core", "compensation = minus the predicted deviation; residual = recorded minus predicted, each in the sign of its column; a reduction is positive where the rms became smaller, negative where it became larger"),
     QT_TRANSLATE_NOOP("core", "compensation: {}"),
     QT_TRANSLATE_NOOP("core", "coolant minus structure temperature"),

@@ -308,8 +308,8 @@ void GapPanel::showPlots() {
   for (std::size_t side = 0; side < 2; ++side) {
     const std::vector<double>& model = side == 0 ? s->simulated : s->completed;
     if (model.empty()) continue;
-    // The measured values stay where they are; the line takes what the fit makes of the free constant.
-    const double shift = side == 0 ? 0.0 : s->constant_after - s->constant_before;
+    // Measured values as they are; the line takes what the fit makes of the free constant.
+    const double constant = side == 0 ? s->constant_before : s->constant_after;
     Series measured;
     measured.name = tr("measured");
     measured.style = SeriesStyle::Points;
@@ -321,9 +321,9 @@ void GapPanel::showPlots() {
     for (std::size_t i = 0; i < s->time_s.size(); ++i) {
       const double t = s->time_s[i] / unit.seconds;
       measured.x.push_back(t);
-      measured.y.push_back(s->value[i] - s->constant_before);
+      measured.y.push_back(s->value[i]);
       line.x.push_back(t);
-      line.y.push_back(model[i] + shift);
+      line.y.push_back(model[i] + constant);
       line.sigma.push_back(s->noise);
       low = std::min({low, measured.y.back(), line.y.back() - 2 * s->noise});
       high = std::max({high, measured.y.back(), line.y.back() + 2 * s->noise});

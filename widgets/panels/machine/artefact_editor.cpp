@@ -268,7 +268,7 @@ void ArtefactEditor::check() {
     return;
   }
   if (findings_.empty()) {
-    verdict_->set(Tone::Good, machine_["artefacts"].empty()
+    verdict_->set(Tone::Neutral, machine_["artefacts"].empty()
                                   ? tr("The machine has no artefact yet. A touch probe needs one and its styli.")
                                   : QString());
     return;
