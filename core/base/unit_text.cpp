@@ -23,4 +23,12 @@ std::string printedUnit(std::string_view unit) {
   return out;
 }
 
+std::string unitOfSignal(std::string_view name) {
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 6> units{
+      {{"_um_per_m", "um/m"}, {"_um_m", "um/m"}, {"_um", "um"}, {"_urad", "urad"}, {"_nm", "nm"}, {"_mrad", "mrad"}}};
+  for (const auto& [ending, unit] : units)
+    if (name.ends_with(ending)) return std::string(unit);
+  return {};
+}
+
 }  // namespace spindrift

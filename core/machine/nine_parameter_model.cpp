@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <set>
 #include <string_view>
 #include <tuple>
@@ -406,6 +407,22 @@ StateDifferences differencesFromReference(const ObservationSet& set, const std::
   return change;
 }
 
+/// Nothing is known of any parameter, and so of any prediction.
+void reject(NineParameterFit& fit, std::string message) {
+  constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+  fit.status = FitStatus::Rejected;
+  fit.message = std::move(message);
+  fit.parameters.setConstant(nothing);
+  fit.covariance.setZero();
+  fit.covariance.diagonal().setConstant(std::numeric_limits<double>::infinity());
+  fit.undetermined.resize(nine_parameter_count);
+  std::iota(fit.undetermined.begin(), fit.undetermined.end(), 0);
+  fit.null_space = NineMatrix::Identity();
+  fit.condition_number = nothing;
+  fit.chi2 = nothing;
+  for (NineParameterResidual& r : fit.residuals) r.residual_um = nothing;
+}
+
 NineParameterFit fitNineParameters(const ObservationSet& observations, const NineParameterOptions& options) {
   options.validate();
   StateDifferences change =
@@ -465,8 +482,7 @@ NineParameterFit fitNineParameters(const ObservationSet& observations, const Nin
   }
   const WeightedFit weighted = solveWeighted(A, v, covariance, options);
   if (weighted.linear.status == FitStatus::Rejected) {
-    fit.status = FitStatus::Rejected;
-    fit.message = fmt::format("{} of state {}", weighted.linear.message, change.state);
+    reject(fit, fmt::format("{} of state {}", weighted.linear.message, change.state));
     return fit;
   }
   const LinearFitResult& linear = weighted.linear;
@@ -539,7 +555,13 @@ NineParameterComparison compareNineParameters(const ObservationSet& observations
                     comparison.a.state, comparison.b.state));
   }
   comparison.p_value.fill(1.0);
-  if (comparison.a.status == FitStatus::Rejected || comparison.b.status == FitStatus::Rejected) return comparison;
+  if (comparison.a.status == FitStatus::Rejected || comparison.b.status == FitStatus::Rejected) {
+    constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+    comparison.difference.setConstant(nothing);
+    comparison.covariance.diagonal().setConstant(std::numeric_limits<double>::infinity());
+    comparison.chi2 = comparison.p_value_all = nothing;
+    return comparison;
+  }
   comparison.difference = comparison.b.parameters - comparison.a.parameters;
   const Eigen::MatrixXd gain = comparison.b.gain - comparison.a.gain;
   comparison.estimable_covariance = gain * comparison.a.value_covariance * gain.transpose();

@@ -103,7 +103,8 @@ struct NineParameterResidual {
 };
 
 /// Result of a fit. If `status` is Degenerate the parameters in `undetermined` have no value (infinite variance), the
-/// others hold.
+/// others hold. If it is Rejected no parameter has one: all are NaN and in `undetermined`, and so are condition number,
+/// chi2 and residuals NaN.
 struct NineParameterFit {
   FitStatus status = FitStatus::NotRun;
   std::string message;
@@ -180,7 +181,7 @@ struct NineParameterComparison {
   /// Chi-squared test of all determined differences at once.
   double chi2 = 0.0;
   int degrees_of_freedom = 0;
-  double p_value_all = 1.0;
+  double p_value_all = 1.0;  ///< NaN, as chi2 and all differences, if a fit was rejected
 
   /// Difference b - a as a model: its field with sigma shows where the sets disagree.
   [[nodiscard]] NineParameterModel differenceModel() const;

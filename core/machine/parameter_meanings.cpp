@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/machine/parameter_meanings.h"
+#include "core/base/unit_text.h"
 
 #include <fmt/format.h>
 
@@ -96,7 +97,7 @@ ErrorParameter describedParameter(std::string_view name) {
   ErrorParameter parameter;
   parameter.name = name;
   parameter.symbol = name.substr(0, name.find('_'));
-  parameter.unit = name.ends_with("_um_per_m") ? "um/m" : name.ends_with("_urad") ? "urad" : "um";
+  parameter.unit = unitOfSignal(name);
   return parameter;
 }
 

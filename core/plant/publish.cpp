@@ -72,6 +72,8 @@ std::optional<PlantResult> fromPayload(const std::string& kind, const nlohmann::
   r.kind = kind;
   r.verdict = textOf(payload, "verdict");
   if (r.verdict.empty()) r.verdict = textOf(payload, "status");
+  // A fit that was rejected has no parameters, whatever a program of old has written of them.
+  if (textOf(payload, "status") == toString(FitStatus::Rejected)) return r;
   addParameters(payload.value("parameters", nlohmann::json()), textOf(payload, "state"), r.parameters);
   if (const auto cycles = payload.find("cycles"); cycles != payload.end() && cycles->is_array()) {
     for (const nlohmann::json& cycle : *cycles) {

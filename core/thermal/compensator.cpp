@@ -182,11 +182,11 @@ const char* Compensator::outputName(int index) const noexcept {
 
 void Compensator::reset() noexcept {
   started_ = false;
-  good_for_s_ = limits_.recover_after_s;
+  fallback_ = false;
+  good_for_s_ = 0.0;
   bad_for_s_.fill(0.0);
   was_bad_ = false;
   broken_for_s_ = 0.0;
-  output_.fill(0.0);
 }
 
 CompensatorStatus Compensator::status() const noexcept {
@@ -262,17 +262,20 @@ CompensatorState Compensator::step(const double* inputs, const double* age_s, do
     }
     was_bad_ = refused_ >= 0;
   }
-  if (refused_ >= 0 && lost) {
+  // Out of fall-back only by inputs that are good, not by held ones: an input with a good value now and then would
+  // otherwise be believed again as long as each of them is held.
+  if (refused_ >= 0 && (lost || fallback_)) {
+    fallback_ = true;
     good_for_s_ = 0.0;
-  } else {
-    good_for_s_ = std::min(good_for_s_ + cycle_s_, 1e9);
+  } else if (fallback_) {
+    good_for_s_ += cycle_s_;
+    fallback_ = good_for_s_ < limits_.recover_after_s;
   }
-  const bool fallback = good_for_s_ < limits_.recover_after_s;
-  state_ = fallback        ? CompensatorState::Fallback
+  state_ = fallback_       ? CompensatorState::Fallback
            : refused_ >= 0 ? CompensatorState::Holding
                            : CompensatorState::Running;
   if (!started_ && refused_ >= 0) {
-    // Nothing to go by: to zero, where it is from the beginning unless the model's own value broke.
+    // Nothing to go by: to zero, where it is from the beginning unless the model's own value broke or after a reset.
     for (int o = 0; o < outputs_; ++o) {
       const double change = limits_.slew_per_s * cycle_s_;
       output_[o] = std::clamp(0.0, output_[o] - change, output_[o] + change);
@@ -320,7 +323,7 @@ CompensatorState Compensator::step(const double* inputs, const double* age_s, do
     broken = broken || !std::isfinite(value[o]);
   }
   // One output that is no number restarts the lags of all: none of them is what the model says.
-  const bool fade = fallback || (broken && broken_for_s_ > limits_.stale_after_s);
+  const bool fade = fallback_ || (broken && broken_for_s_ > limits_.stale_after_s);
   for (int o = 0; o < outputs_; ++o) {
     const double target = fade ? 0.0 : broken ? output_[o] : std::clamp(value[o], -limits_.limit, limits_.limit);
     output_[o] = std::clamp(target, output_[o] - largest_change, output_[o] + largest_change);

@@ -8,9 +8,10 @@
 // checked in every step: not finite, outside the allowed range, or stale (no new value for longer than `stale_after_s`;
 // also a clock that does not run forwards). While an input is bad its last good value is used for `stale_after_s`;
 // after that the compensator is in fall-back: it fades its output to zero with the slew limit, until all inputs are
-// good again for `recover_after_s`. Should the model's own value of an output ever not be finite, all outputs are
-// held and faded in the same way and the lags start again at rest. Configuration (load) happens outside the control
-// loop and reports problems as a sentence; everything else is noexcept.
+// good again for `recover_after_s` without a break (a last good value that is held does not count). Should the model's
+// own value of an output ever not be finite, all outputs are held and faded in the same way and the lags start again at
+// rest. Configuration (load) happens outside the control loop and reports problems as a sentence; everything else is
+// noexcept.
 #pragma once
 
 #include <array>
@@ -81,7 +82,9 @@ class Compensator {
   /// likewise as a factor. Not finite, or outside the limits: nothing changes, false, and the status says so until an
   /// update of that output is taken.
   bool update(int output, double gain_factor, double offset_correction) noexcept;
-  /// Forgets all states; the next good step starts at rest.
+  /// Forgets what the inputs were and for how long they have been bad; the next good step puts every lag at rest at its
+  /// input. The outputs stay where they are and go on from there with the slew limit, since an axis follows them; the
+  /// gain and offset that `update` has taken stay too. `load` forgets all.
   void reset() noexcept;
 
  private:
@@ -102,7 +105,8 @@ class Compensator {
   bool started_ = false;
   bool was_bad_ = false;  ///< an input was refused in the last step
   double cycle_s_ = 0.0;
-  double good_for_s_ = 0.0;
+  bool fallback_ = false;
+  double good_for_s_ = 0.0;  ///< in fall-back: how long nothing has been refused
   CompensatorLimits limits_;
   double broken_for_s_ = 0.0;  ///< how long the model's own value has not been finite
   int refused_update_ = -1;

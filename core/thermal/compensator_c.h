@@ -101,6 +101,8 @@ int spindrift_compensator_step(spindrift_compensator* compensator, const double*
  * impossible: then nothing changes and the status says so. */
 int spindrift_compensator_update(spindrift_compensator* compensator, int output, double gain_factor,
                                  double offset_correction);
+/* Forgets what the inputs were and for how long they have been bad: the next good step begins at rest. The outputs go
+ * on from where they are with the slew limit, and measured updates stay. */
 void spindrift_compensator_reset(spindrift_compensator* compensator);
 
 #ifdef __cplusplus

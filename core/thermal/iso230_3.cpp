@@ -13,7 +13,11 @@
 namespace spindrift {
 namespace {
 
-constexpr double creep_rpm = 1.0;  ///< what an encoder shows of a spindle that stands
+/// An encoder shows up to 1 rpm of a spindle that stands.
+bool turns(double speed_rpm) {
+  constexpr double creep_rpm = 1.0;
+  return std::abs(speed_rpm) > creep_rpm;
+}
 
 double readingSigma(const ComponentSeries& c) {
   if (c.reading_sigma > 0.0) return c.reading_sigma;
@@ -66,12 +70,16 @@ Level levelAt(std::span<const double> time_s, const std::vector<double>& values,
     const double slope = (sty - st * sy / n) / spread;
     return {(sy - slope * st) / n, 1.0 / n + st * st / (n * n * spread)};
   }
+  // Outwards from `when` to the first reading on each side; of two as near the earlier one.
+  auto after = static_cast<std::size_t>(std::lower_bound(time_s.begin(), time_s.end(), when) - time_s.begin());
+  std::size_t before = after;
+  while (after < values.size() && !std::isfinite(values[after])) ++after;
+  while (before > 0 && !std::isfinite(values[before - 1])) --before;
   Level nearest;
-  double distance = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    if (!std::isfinite(values[i]) || std::abs(time_s[i] - when) >= distance) continue;
-    distance = std::abs(time_s[i] - when);
-    nearest.value = values[i];
+  if (before > 0 && (after == values.size() || when - time_s[before - 1] <= time_s[after] - when)) {
+    nearest.value = values[before - 1];
+  } else if (after < values.size()) {
+    nearest.value = values[after];
   }
   return nearest;
 }
@@ -180,7 +188,7 @@ std::vector<std::string> requireMachineAtRest(const TimeSeries& series) {
     if (signal.kind != SignalKind::Speed) continue;
     speed_known = true;
     for (std::size_t row = 0; row < signal.values.size(); ++row) {
-      if (!(std::abs(signal.values[row]) > creep_rpm)) continue;
+      if (!turns(signal.values[row])) continue;
       throw InputError({series.file, fmt::format("column {}", signal.name)},
                        fmt::format("the spindle turns ({:g} rpm at {:g} s), but an ETVE test is of a machine at rest; "
                                    "allowed: a log without a running spindle, or the test \"spindle\".",
@@ -196,7 +204,7 @@ std::string requireOneSpeedStep(const TimeSeries& series, const std::string& col
   SPINDRIFT_ASSERT(speed.size() == series.time_s.size(), "speed and time differ in length");
   constexpr double tolerance = 0.05;      // of the level: control and encoder
   constexpr double transition_s = 120.0;  // to come up to speed, and single rows that are off
-  const auto runs = [&](std::size_t row) { return std::abs(speed[row]) > creep_rpm; };
+  const auto runs = [&](std::size_t row) { return turns(speed[row]); };
   std::size_t first = 0;
   while (first < speed.size() && !runs(first)) ++first;
   if (first == speed.size()) return {};  // the evaluation says so
@@ -317,7 +325,7 @@ SpindleResult evaluateRotatingSpindle(std::span<const double> time_s, std::span<
   std::size_t first = speed.size();
   std::size_t last = 0;
   for (std::size_t i = 0; i < speed.size(); ++i) {
-    if (!(std::abs(speed[i]) > 0.0)) continue;
+    if (!turns(speed[i])) continue;
     if (first == speed.size()) first = i;
     last = i;
   }
@@ -345,7 +353,10 @@ SpindleResult evaluateRotatingSpindle(std::span<const double> time_s, std::span<
     out.at_end = end.value - zero.value;
     out.first_hour = stop >= hour ? after_hour.value - zero.value : std::nan("");
     out.after_cooling = cooled.value - zero.value;
-    out.change_sigma = std::sqrt(zero.variance + end.variance) * readingSigma(c);
+    const double reading_sigma = readingSigma(c);
+    out.change_sigma = std::sqrt(zero.variance + end.variance) * reading_sigma;
+    out.first_hour_sigma = stop >= hour ? std::sqrt(zero.variance + after_hour.variance) * reading_sigma : std::nan("");
+    out.after_cooling_sigma = std::sqrt(zero.variance + cooled.variance) * reading_sigma;
     out.time_to_fraction_s = std::nan("");
     const std::vector<Level> levels = levelsOf(time_s, c.values, window_s, start, stop);
     bool beyond = false;

@@ -54,13 +54,15 @@ constexpr double level_window_s = 120.0;  ///< short beside an hour, in which th
 struct SpindleComponent {
   std::string name;
   std::string unit;
-  double first_hour = 0.0;    ///< change after 60 min of running; NaN if the run was shorter
-  double at_end = 0.0;        ///< change at the end of the running period
-  double change_sigma = 0.0;  ///< of both
-  double range = 0.0;         ///< over the running period
+  double first_hour = 0.0;        ///< change after 60 min of running; NaN if the run was shorter
+  double at_end = 0.0;            ///< change at the end of the running period
+  double first_hour_sigma = 0.0;  ///< standard uncertainty of `first_hour`; NaN as that is
+  double change_sigma = 0.0;      ///< of `at_end`
+  double range = 0.0;             ///< over the running period
   double time_to_fraction_s =
       0.0;  ///< first time from which the change stays beyond `fraction` of its end value; NaN if it ends below 3 sigma
   double after_cooling = 0.0;  ///< change left at the end of the record
+  double after_cooling_sigma = 0.0;
 };
 struct SpindleResult {
   double start_s = 0.0;
@@ -74,7 +76,8 @@ struct SpindleResult {
 /// column named; returns a sentence where the record begins with a running spindle, so that no cold state is in it.
 [[nodiscard]] std::string requireOneSpeedStep(const TimeSeries& series, const std::string& column,
                                               std::span<const double> speed);
-/// The running period is from the first row with speed above zero to the last one.
+/// The running period is from the first row whose speed is above what an encoder shows of a spindle
+/// that stands (1 rpm) to the last one.
 [[nodiscard]] SpindleResult evaluateRotatingSpindle(std::span<const double> time_s, std::span<const double> speed_rpm,
                                                     const std::vector<ComponentSeries>& components,
                                                     double fraction = 0.9, double window_s = level_window_s);

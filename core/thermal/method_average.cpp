@@ -8,6 +8,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/base/unit_text.h"
 #include "core/thermal/interval_calibration.h"
 
 namespace spindrift {
@@ -103,7 +104,7 @@ Averaged averaged(const Dictionary& d, const Evidence& evidence, const std::vect
   // Original units; every lag has its own reference, which goes into the offset.
   ThermalOutput o;
   o.name = output;
-  o.unit = output.ends_with("_urad") ? "urad" : output.ends_with("_um_per_m") ? "um/m" : "um";
+  o.unit = unitOfSignal(output);
   o.offset = d.y_mean + average[0];
   std::vector<int> place(d.inputs.size(), -1);
   std::vector<Index> used;

@@ -11,6 +11,7 @@
 #include <set>
 
 #include "core/base/text.h"
+#include "core/base/unit_text.h"
 #include "core/math/least_squares.h"
 #include "core/math/statistics.h"
 #include "core/thermal/interval_calibration.h"
@@ -396,7 +397,7 @@ ResponseFitResult fitResponse(const TimeSeries& series, const std::string& outpu
   model.source = series.file.string();
   ThermalOutput out;
   out.name = output;
-  out.unit = output.ends_with("_urad") ? "urad" : output.ends_with("_um_per_m") ? "um/m" : "um";
+  out.unit = unitOfSignal(output);
   std::vector<Index> columns;
   std::vector<int> place(d.inputs.size(), -1);
   for (Index k = 0; k < p; ++k) {

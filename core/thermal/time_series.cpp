@@ -31,6 +31,23 @@ std::vector<double> present(std::span<const double> values) {
   return out;
 }
 
+/// Without the unit of a temperature that is none in degC; empty if the name has no such unit.
+std::string_view stemOfOtherUnit(std::string_view name) {
+  for (const std::string_view unit : {"_degF", "_K"})
+    if (name.ends_with(unit)) return name.substr(0, name.size() - unit.size());
+  return {};
+}
+
+/// The name that a temperature has once it is in degC. If there is another of that name, the unit is added to its own.
+std::string nameInCelsius(const TimeSeries& series, const std::string& name) {
+  const std::string_view stem = stemOfOtherUnit(name);
+  if (stem.empty()) return name;
+  std::string converted = std::string(stem) + "_degC";
+  const bool taken = std::any_of(series.signals.begin(), series.signals.end(),
+                                 [&](const Signal& other) { return other.name == converted; });
+  return taken ? name + "_degC" : converted;
+}
+
 /// Converts and checks the unit of the temperatures; a file cannot say degC and mean kelvin.
 void settleTemperatureUnits(TimeSeries& series, const TimeSeriesOptions& options) {
   std::vector<Signal*> undeclared;
@@ -40,12 +57,14 @@ void settleTemperatureUnits(TimeSeries& series, const TimeSeriesOptions& options
                              : signal.name.ends_with("_K")     ? "K"
                              : signal.name.ends_with("_degF")  ? "degF"
                                                                : "degC";
+    const std::string stated = signal.name;
+    signal.name = nameInCelsius(series, stated);
     if (unit == "degC") {
       if (options.temperature_unit.empty()) undeclared.push_back(&signal);
       continue;
     }
     for (double& v : signal.values) v = unit == "K" ? v - 273.15 : (v - 32.0) / 1.8;
-    series.notes.push_back(fmt::format("{} was read in {} and converted to degC.", signal.name, unit));
+    series.notes.push_back(fmt::format("{} was read in {} and converted to degC.", stated, unit));
   }
   bool all_hot = !undeclared.empty();
   for (const Signal* signal : undeclared) {
@@ -127,9 +146,16 @@ SignalKind signalKind(std::string_view name, std::span<const double> values) {
 }
 
 const Signal* TimeSeries::find(std::string_view name) const noexcept {
-  for (const Signal& s : signals)
-    if (s.name == name) return &s;
-  return nullptr;
+  const auto named = [this](std::string_view stem, std::string_view unit) -> const Signal* {
+    for (const Signal& s : signals)
+      if (s.name.size() == stem.size() + unit.size() && s.name.starts_with(stem) && s.name.ends_with(unit)) return &s;
+    return nullptr;
+  };
+  if (const Signal* found = named(name, "")) return found;
+  const std::string_view stem = stemOfOtherUnit(name);
+  if (stem.empty()) return nullptr;
+  const Signal* beside = named(name, "_degC");
+  return beside != nullptr ? beside : named(stem, "_degC");
 }
 
 const Signal& TimeSeries::at(std::string_view name) const {

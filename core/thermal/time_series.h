@@ -2,7 +2,8 @@
 // Measured signals over time: import of any CSV, quality of each signal, averaging to a coarser period, merging of fast
 // temperatures with sparse measurements.
 //
-// Time s; temperatures are converted to degC (`_K`, `_degF` columns, or `temperature_unit`), everything else keeps the
+// Time s; temperatures are converted to degC (`_K`, `_degF` columns, or `temperature_unit`) and named so (`T_b_degF`
+// becomes `T_b_degC`, or `T_b_degF_degC` beside a column of that name), everything else keeps the
 // unit its column name ends in (`_um`, `_urad`, `_rpm`, `_mm_min`, ...). A missing value is NaN inside the program and
 // an EMPTY field in a file; the text "nan" is an error (FORMATS.md). States (speeds, feeds, switches) hold until the
 // next row, everything else is linear between rows.
@@ -57,6 +58,7 @@ struct TimeSeries {
   std::vector<Signal> signals;
   std::vector<std::string> notes;  ///< sentences about what was found and done while reading
 
+  /// A temperature is also found by the name it had in its file before it was converted ("T_b_degF" for "T_b_degC").
   [[nodiscard]] const Signal* find(std::string_view name) const noexcept;
   /// Throws InputError naming the column and those that are there.
   [[nodiscard]] const Signal& at(std::string_view name) const;

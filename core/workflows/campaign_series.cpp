@@ -8,6 +8,7 @@
 
 #include "core/base/error.h"
 #include "core/base/natural_order.h"
+#include "core/base/unit_text.h"
 #include "core/math/statistics.h"
 #include "core/probing/evaluate_touches.h"
 #include "core/workflows/compensated_data.h"
@@ -114,13 +115,6 @@ bool isSparse(const Signal& output) {
   const auto measured =
       std::count_if(output.values.begin(), output.values.end(), [](double v) { return std::isfinite(v); });
   return measured * 5 < std::ssize(output.values);
-}
-
-std::string unitOfSignal(const std::string& name) {
-  for (const auto& [ending, unit] :
-       {std::pair{"_um_per_m", "um/m"}, {"_um_m", "um/m"}, {"_um", "um"}, {"_urad", "urad"}, {"_nm", "nm"}})
-    if (name.ends_with(ending)) return unit;
-  return "";
 }
 
 }  // namespace spindrift

@@ -34,7 +34,4 @@ struct CampaignSeries {
 /// True if the output is measured at so few rows that only the method "response" can use it.
 [[nodiscard]] bool isSparse(const Signal& output);
 
-/// Unit by the end of a name: um, urad, um/m, nm; empty for others.
-[[nodiscard]] std::string unitOfSignal(const std::string& name);
-
 }  // namespace spindrift

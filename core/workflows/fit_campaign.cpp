@@ -71,8 +71,9 @@ nlohmann::json toJson(const NineParameterFit& fit) {
   out["chi2"] = jsonNumber(fit.chi2);
   out["degrees_of_freedom"] = fit.degrees_of_freedom;
   out["p_value"] = jsonNumber(fit.p_value);
-  out["lack_of_fit_um"] = {
-      {"EX", fit.lack_of_fit_um.x()}, {"EY", fit.lack_of_fit_um.y()}, {"EZ", fit.lack_of_fit_um.z()}};
+  for (const Component c : {Component::EX, Component::EY, Component::EZ})
+    out["lack_of_fit_um"][std::string(toString(c))] =
+        fit.status == FitStatus::Rejected ? nlohmann::json() : jsonNumber(fit.lack_of_fit_um[static_cast<int>(c)]);
   out["warnings"] = fit.warnings;
   return out;
 }
@@ -151,6 +152,7 @@ std::string summaryOf(const NineParameterComparison& comparison) {
     text += fmt::format("  {:<5} {:<18} {}{}\n", parameterOf(i).symbol, value, parameterOf(i).meaning,
                         differs ? ": differs" : "");
   }
+  if (std::isnan(comparison.p_value_all)) return text;
   text += fmt::format("all together: {}; {}\n", pValueText(comparison.p_value_all),
                       comparison.p_value_all < 0.05 ? "the sets of points disagree beyond their uncertainty"
                                                     : "the sets of points agree within their uncertainty");

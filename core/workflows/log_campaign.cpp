@@ -5,6 +5,7 @@
 
 #include "core/base/atomic_file.h"
 #include "core/base/error.h"
+#include "core/base/unit_text.h"
 #include "core/workflows/campaign_series.h"
 
 namespace spindrift {

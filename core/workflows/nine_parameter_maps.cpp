@@ -80,7 +80,7 @@ std::vector<PointChange> pointChanges(const ObservationSet& observations, const 
 std::optional<NineParameterMaps> nineParameterMaps(const MachineDescription& machine, const NineParameterFit& fit,
                                                    const TableOrderChoice& order,
                                                    const std::optional<NineParameterComparison>& compared) {
-  if (fit.residuals.empty()) return std::nullopt;
+  if (fit.residuals.empty() || fit.status == FitStatus::Rejected) return std::nullopt;
   double z_mm = 0.0;
   for (const NineParameterResidual& r : fit.residuals)
     z_mm += r.position_mm.z() / static_cast<double>(fit.residuals.size());
@@ -89,7 +89,7 @@ std::optional<NineParameterMaps> nineParameterMaps(const MachineDescription& mac
   NineParameterMaps maps;
   maps.nine = mapsOf(fit, fit.predictingModel(), *grid);
   if (order.richer()) maps.higher = mapsOf(fit, *order.model, *grid);
-  if (compared) maps.difference = mapsOf(*compared, *grid);
+  if (compared && !std::isnan(compared->p_value_all)) maps.difference = mapsOf(*compared, *grid);
   return maps;
 }
 

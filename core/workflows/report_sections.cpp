@@ -371,7 +371,7 @@ void addIso230(Report& document, const Campaign& campaign) {
   std::vector<ReportRow> rows;
   if (result.spindle) {
     for (const SpindleComponent& c : result.spindle->components) {
-      rows.push_back({signalTitle(c.name).name, withUncertainty(c.first_hour, c.change_sigma, c.unit),
+      rows.push_back({signalTitle(c.name).name, withUncertainty(c.first_hour, c.first_hour_sigma, c.unit),
                       withUncertainty(c.at_end, c.change_sigma, c.unit), numberText(c.range, c.unit, 2),
                       numberText(c.time_to_fraction_s / 60.0, "min", 0)});
     }

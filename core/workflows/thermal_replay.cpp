@@ -143,8 +143,8 @@ ReplayResult replayCompensation(const ReplayRequest& request, JobContext& job) {
   }
   result.inputs = request.inputs;
   if (result.inputs.empty()) result.inputs = automaticInputs(data.series, result.errors.front().name);
-  for (const std::string& input : result.inputs) {
-    static_cast<void>(data.series.at(input));
+  for (std::string& input : result.inputs) {
+    input = data.series.at(input).name;
     for (const AdaptiveError& e : result.errors)
       if (e.name == input)
         throw InputError(fmt::format("{} is an output and an input; an error cannot predict itself.", input));

@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "core/base/json_reader.h"
+#include "core/base/unit_text.h"
 #include "core/math/distributions.h"
 #include "core/math/statistics.h"
 #include "core/thermal/arx.h"
@@ -201,7 +202,7 @@ StructuredFit fitByArx(const TimeSeries& series, const IdentifyRequest& request,
   }
   ThermalOutput output;
   output.name = request.output;
-  output.unit = request.output.ends_with("_urad") ? "urad" : "um";
+  output.unit = unitOfSignal(request.output);
   std::string message;
   output.terms = lagsOf(model, message);
   if (!message.empty()) out.notes.push_back(message);
@@ -243,7 +244,7 @@ StructuredFit fitByOutputError(const TimeSeries& series, const IdentifyRequest& 
   describeInputs(b, series, inputs, out.model);
   ThermalOutput output;
   output.name = request.output;
-  output.unit = request.output.ends_with("_urad") ? "urad" : "um";
+  output.unit = unitOfSignal(request.output);
   output.offset = fit.offset;
   for (std::size_t i = 0; i < inputs.size(); ++i) {
     const auto [gain, sigma] = fit.staticGain(i);

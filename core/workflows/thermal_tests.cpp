@@ -10,6 +10,7 @@
 #include "core/base/json_reader.h"
 #include "core/base/printed_number.h"
 #include "core/base/text.h"
+#include "core/base/unit_text.h"
 #include "core/machine/observation.h"
 #include "core/machine/operating_log.h"
 #include "core/machine/sensor_role.h"
@@ -120,10 +121,10 @@ Iso230Result evaluateIso230Test(const TimeSeries& whole, const Iso230Request& re
   std::vector<PlotSeries> curves;
   for (const Signal& s : series.signals) {
     if (!request.columns.empty() || s.kind != SignalKind::Displacement) continue;
-    components.push_back({s.name, s.name.ends_with("_urad") ? "urad" : "um", s.values, 0.0});
+    components.push_back({s.name, unitOfSignal(s.name), s.values, 0.0});
   }
   for (const std::string& name : request.columns)
-    components.push_back({name, name.ends_with("_urad") ? "urad" : "um", series.at(name).values, 0.0});
+    components.push_back({name, unitOfSignal(name), series.at(name).values, 0.0});
   for (const ComponentSeries& c : components) {
     PlotSeries curve{c.name, series.time_s, c.values, {}, SeriesStyle::Line};
     // What is measured along an axis has its colour; tilts follow the palette.
@@ -190,11 +191,13 @@ nlohmann::json Iso230Result::json() const {
       out["components"].push_back({{"name", c.name},
                                    {"unit", c.unit},
                                    {"first_hour", jsonNumber(c.first_hour)},
+                                   {"first_hour_standard_uncertainty", jsonNumber(c.first_hour_sigma)},
                                    {"at_end", jsonNumber(c.at_end)},
                                    {"standard_uncertainty", c.change_sigma},
                                    {"range", c.range},
                                    {"time_to_fraction_s", jsonNumber(c.time_to_fraction_s)},
-                                   {"after_cooling", jsonNumber(c.after_cooling)}});
+                                   {"after_cooling", jsonNumber(c.after_cooling)},
+                                   {"after_cooling_standard_uncertainty", jsonNumber(c.after_cooling_sigma)}});
     }
   }
   if (axis) {
@@ -233,7 +236,7 @@ std::string Iso230Result::summary() const {
     for (const SpindleComponent& c : spindle->components) {
       text += fmt::format("  {}: at the end {}, first hour {}, {:.0f} % after {:.0f} min\n", c.name,
                           withUncertainty(c.at_end, c.change_sigma, c.unit),
-                          withUncertainty(c.first_hour, c.change_sigma, c.unit), 100.0 * spindle->fraction,
+                          withUncertainty(c.first_hour, c.first_hour_sigma, c.unit), 100.0 * spindle->fraction,
                           c.time_to_fraction_s / 60.0);
     }
   }

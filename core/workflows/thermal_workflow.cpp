@@ -164,8 +164,8 @@ IdentifyResult identifyThermalModel(TimeSeries series, const IdentifyRequest& re
   if (request.test.from_s < request.train.to_s && request.train.from_s < request.test.to_s) {
     result.notes.push_back("Train and test overlap: the test figures are not evidence for new data.");
   }
-  const std::vector<std::string> names =
-      request.inputs.empty() ? automaticInputs(series, request.output) : request.inputs;
+  std::vector<std::string> names = request.inputs.empty() ? automaticInputs(series, request.output) : request.inputs;
+  for (std::string& name : names) name = series.at(name).name;  // a model names what it was given, with its unit
   const bool structured =
       request.method == "arx" || request.method == "oe" || (request.method.empty() && request.order);
   const bool sparse = isSparse(output);
@@ -342,7 +342,7 @@ nlohmann::json IdentifyResult::json() const {
 
 namespace {
 
-/// A model file says "um" of whatever has no unit of a deviation; who reads of a temperature is told so.
+/// A model file states the units of deviations alone; who reads of a temperature is told its unit.
 std::string unitForPeople(const ThermalOutput& output) {
   return signalKind(output.name, {}) == SignalKind::Temperature ? "degC" : output.unit;
 }

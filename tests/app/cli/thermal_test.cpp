@@ -92,7 +92,11 @@ TEST_F(Thermal, SeveralOutputsGoIntoOneModelThatPredictsAsEachAlone) {
   }
   EXPECT_EQ(linesOf(prediction).front(),
             "time_s,measured_growth_um,predicted_growth_um,measured_T_nose_degC,predicted_T_nose_degC");
-  // The model file is what the compensator loads.
+  // The model file is what the compensator loads, unless an output is none that a machine can be compensated by.
+  expectBadInput({"thermal", "compensate", log.string(), "--model", model}, {"T_nose_degC", "allowed: \"um\""});
+  auto alone = identify();
+  alone.insert(alone.end(), {"--model-out", model});
+  ASSERT_EQ(runCli(alone).status, 0);
   const nlohmann::json compensated = jsonOf({"thermal", "compensate", log.string(), "--model", model});
   EXPECT_NE(compensated.dump().find("growth_um"), std::string::npos);
   expectBadInput({"thermal", "identify", log.string(), "--output", "growth_um,growth_um", "--train", "0:12000",
@@ -125,6 +129,35 @@ TEST_F(Thermal, IsoTestTakesARangeAndAWindow) {
   EXPECT_GT(single["components"][0]["range"].get<double>(), level["components"][0]["range"].get<double>());
   one.back() = "-1";
   expectBadInput(one, {"--window"});
+}
+
+/// The readings of another setup have another zero.
+TEST_F(Thermal, TrackTakesReadingsOfAnyZero) {
+  auto words = identify();
+  const std::string model = (folder / "model.json").string();
+  words.insert(words.end(), {"--model-out", model});
+  ASSERT_EQ(runCli(words).status, 0);
+  std::vector<std::string> lines = linesOf(log);
+  for (std::size_t k = 1; k < lines.size(); ++k) {
+    const std::size_t last = lines[k].rfind(',') + 1;
+    lines[k] = lines[k].substr(0, last) + std::to_string(std::stod(lines[k].substr(last)) + 150.0);
+  }
+  const std::string other = (folder / "other.csv").string();
+  writeLines(other, lines);
+  for (const char* update : {"kalman", "gain", "arx"}) {
+    const auto track = [&](const std::string& file) {
+      return jsonOf(
+          {"thermal", "track", file, "--model", model, "--update", update, "--interval", "1800", "--from", "0"});
+    };
+    const nlohmann::json same = track(log.string());
+    const nlohmann::json moved = track(other);
+    EXPECT_NEAR(moved["rmse"].get<double>(), same["rmse"].get<double>(), 1e-4) << update;
+    EXPECT_NEAR(moved["without_update"]["rmse"].get<double>(), same["without_update"]["rmse"].get<double>(), 1e-4);
+    EXPECT_TRUE(moved["updates"][0]["predicted_before"].is_null());
+    if (std::string_view(update) != "kalman") continue;
+    EXPECT_LT(moved["rmse"].get<double>(), 1.0);
+    for (const nlohmann::json& e : moved["updates"]) EXPECT_TRUE(e["used"].get<bool>()) << e.dump();
+  }
 }
 
 TEST_F(Thermal, TrackDrawsAndTakesAContext) {

@@ -34,6 +34,16 @@ TEST(Text, UnitsOfFilesAreSymbolsInTexts) {
   EXPECT_EQ(printedUnit("um/(m K)"), "µm/(m K)");
   EXPECT_EQ(printedUnit("degC"), "°C");
   for (const char* unit : {"", "mm/min", "rpm", "umbra", "1", "um2"}) EXPECT_EQ(printedUnit(unit), unit);
+  for (const auto& [name, unit] : {std::pair{"Z_um", "um"},
+                                   {"A_urad", "urad"},
+                                   {"EXX_um_per_m", "um/m"},
+                                   {"Z_nm", "nm"},
+                                   {"A_mrad", "mrad"},
+                                   {"T_nose_degC", ""},
+                                   {"pos_z_mm", ""},
+                                   {"um", ""},
+                                   {"", ""}})
+    EXPECT_EQ(unitOfSignal(name), unit) << name;
 }
 
 TEST(Text, DigitsFollowTheUncertainty) {

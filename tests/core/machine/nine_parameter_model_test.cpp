@@ -172,6 +172,14 @@ TEST(NineParameterModel, CovariancesThatAreNoneAreRefusedWithTheReason) {
   const NineParameterFit impossible = fitWith(-0.5);  // of eight rows: not below -1/7
   EXPECT_EQ(impossible.status, FitStatus::Rejected);
   EXPECT_EQ(impossible.message, "the covariance of the observations is not positive definite of state M1");
+  for (int i = 0; i < nine_parameter_count; ++i) {
+    EXPECT_FALSE(impossible.determined(i));
+    EXPECT_TRUE(std::isnan(impossible.parameters(i)));
+    EXPECT_TRUE(std::isinf(impossible.standardUncertainty(i)));
+  }
+  EXPECT_TRUE(std::isnan(impossible.condition_number));
+  for (const NineParameterResidual& r : impossible.residuals) EXPECT_TRUE(std::isnan(r.residual_um));
+  EXPECT_FALSE(std::isfinite(impossible.predictingModel().predict({}, Component::EX).sigma));
   EXPECT_EQ(fitWith(1.0).status, FitStatus::Rejected) << "singular, however it is rounded";
 }
 

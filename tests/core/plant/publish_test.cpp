@@ -67,6 +67,25 @@ TEST_P(PublishTest, SessionPublishesWhatItKnowsOfTheMachine) {
   EXPECT_EQ(PlantStore::open(address()).campaigns().size(), 1U);
 }
 
+/// Also one that an earlier program has stored as 0 ± 0.
+TEST_P(PublishTest, ARejectedFitIsPublishedAsRejectedAndWithoutParameters) {
+  (void)make();
+  Session s = session("a");
+  s.addResult(1, "fit", {{"points", {"F1", "F2"}}},
+              {{"status", "rejected"},
+               {"state", "M1"},
+               {"parameters", {{"EX_um", {{"value", 0.0}, {"standard_uncertainty", 0.0}}}}},
+               {"parameter_order", {"EX_um"}},
+               {"covariance", {{0.0}}}});
+  (void)publishFromSession(s, {1}, address());
+  PlantStore store = PlantStore::open(address());
+  const PlantCampaign c = store.campaign(store.campaigns("mill").at(0).id);
+  ASSERT_EQ(c.results.size(), 1U);
+  EXPECT_EQ(c.results[0].verdict, "rejected");
+  EXPECT_THAT(c.results[0].parameters, IsEmpty());
+  EXPECT_THAT(store.trend("mill", "fit", "EX_um"), IsEmpty());
+}
+
 TEST_P(PublishTest, WaitsWhileTheStoreIsAwayAndArrivesOnce) {
   (void)make();
   const auto away = folder_ / "plant.sqlite.away";

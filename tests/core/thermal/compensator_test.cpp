@@ -34,6 +34,77 @@ ThermalModel model() {
   return m;
 }
 
+/// A loose plug: one good value in 55 cycles, each held for up to 60 s.
+TEST(Compensator, StaysInFallbackUntilNothingIsRefusedAnyMore) {
+  Compensator c;
+  CompensatorLimits limits;
+  limits.stale_after_s = 60.0;
+  limits.recover_after_s = 10.0;
+  ASSERT_EQ(c.load(model(), 1.0, limits), "");
+  const double good[2] = {4000.0, 25.0};
+  const double bad[2] = {4000.0, std::numeric_limits<double>::quiet_NaN()};
+  double out = 0.0;
+  for (int k = 0; k < 100; ++k) (void)c.step(good, nullptr, &out);
+  ASSERT_GT(std::abs(out), 1.0);
+  for (int k = 0; k < 200; ++k) (void)c.step(bad, nullptr, &out);
+  ASSERT_EQ(c.state(), CompensatorState::Fallback);
+  for (int k = 0; k < 2000; ++k) {
+    (void)c.step(k % 55 == 0 ? good : bad, nullptr, &out);
+    ASSERT_EQ(c.state(), CompensatorState::Fallback) << k;
+    ASSERT_EQ(out, 0.0) << k;
+  }
+  // A single refused value while it recovers begins the time anew.
+  for (int k = 0; k < 8; ++k) EXPECT_EQ(c.step(good, nullptr, &out), CompensatorState::Fallback) << k;
+  EXPECT_EQ(c.step(bad, nullptr, &out), CompensatorState::Fallback);
+  for (int k = 0; k < 9; ++k) EXPECT_EQ(c.step(good, nullptr, &out), CompensatorState::Fallback) << k;
+  EXPECT_EQ(c.step(good, nullptr, &out), CompensatorState::Running);
+  // Outside fall-back the same values are held, as ever.
+  for (int k = 0; k < 500; ++k) {
+    (void)c.step(k % 55 == 0 ? good : bad, nullptr, &out);
+    ASSERT_NE(c.state(), CompensatorState::Fallback) << k;
+  }
+}
+
+/// Back at once is not "never gone".
+TEST(Compensator, FadesAlsoWithoutATimeToRecover) {
+  Compensator c;
+  CompensatorLimits limits;
+  limits.recover_after_s = 0.0;
+  ASSERT_EQ(c.load(model(), 1.0, limits), "");
+  const double good[2] = {4000.0, 25.0};
+  double out = 0.0;
+  for (int k = 0; k < 100; ++k) (void)c.step(good, nullptr, &out);
+  ASSERT_GT(std::abs(out), 1.0);
+  for (int k = 0; k < 300; ++k) (void)c.step(nullptr, nullptr, &out);
+  EXPECT_EQ(c.state(), CompensatorState::Fallback);
+  EXPECT_EQ(out, 0.0);
+  EXPECT_EQ(c.step(good, nullptr, &out), CompensatorState::Running);
+}
+
+TEST(Compensator, AResetNeitherJumpsNorForgetsWhatWasMeasured) {
+  Compensator c;
+  CompensatorLimits limits;
+  limits.slew_per_s = 0.5;
+  ASSERT_EQ(c.load(model(), 1.0, limits), "");
+  const double input[2] = {4000.0, 25.0};
+  double out = 0.0;
+  for (int k = 0; k < 3000; ++k) (void)c.step(input, nullptr, &out);
+  ASSERT_TRUE(c.update(0, 1.0, 3.0));
+  for (int k = 0; k < 3000; ++k) (void)c.step(input, nullptr, &out);
+  const double settled = out;
+  c.reset();
+  (void)c.step(input, nullptr, &out);
+  EXPECT_NEAR(out, settled, 1e-6);  // at rest at the same inputs, and the correction is still there
+  c.reset();
+  double before = out;
+  for (int k = 0; k < 100; ++k, before = out) {
+    (void)c.step(nullptr, nullptr, &out);
+    EXPECT_LE(std::abs(out - before), 0.5 + 1e-12);
+  }
+  EXPECT_EQ(out, 0.0);
+  EXPECT_EQ(c.state(), CompensatorState::Fallback);
+}
+
 TEST(Compensator, EqualsMinusTheModelsPrediction) {
   TimeSeries s;
   std::vector<double> rpm;
@@ -405,7 +476,8 @@ TEST_F(CompensatorInC, ZeroCanBeAskedFor) {
   options_.recover_after_s = SPINDRIFT_COMPENSATOR_ZERO;
   ASSERT_EQ(load(), "");
   EXPECT_EQ(step(good), SPINDRIFT_COMPENSATOR_RUNNING);
-  EXPECT_EQ(step(good, late), SPINDRIFT_COMPENSATOR_HOLDING);
+  EXPECT_EQ(step(good, late), SPINDRIFT_COMPENSATOR_FALLBACK);  // nothing is held for 0 s
+  EXPECT_EQ(step(good), SPINDRIFT_COMPENSATOR_RUNNING);         // and it is back at once
   options_.stale_after_s = -2.0;
   EXPECT_NE(load(), "");
 }

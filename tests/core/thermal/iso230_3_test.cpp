@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
 #include <functional>
 
@@ -29,6 +30,78 @@ TEST(Iso2303, EtveByHand) {
   EXPECT_NEAR(r.components[0].range_per_K, 1.5, 1e-12);
   EXPECT_NEAR(r.components[0].slope_per_K, -1.5, 1e-12);
   EXPECT_NEAR(r.components[0].range_sigma, std::sqrt(2.0) * 0.1, 1e-12);
+}
+
+/// An encoder that creeps while the spindle stands neither begins the test nor ends it.
+TEST(Iso2303, ACreepingEncoderIsAStandingSpindle) {
+  std::vector<double> time;
+  std::vector<double> creeping;
+  std::vector<double> still;
+  ComponentSeries z{"Z_um", "um", {}, 0.1};
+  for (int k = 0; k <= 300; ++k) {
+    const double t = 60.0 * k;
+    const bool runs = t >= 3600.0 && t < 10800.0;
+    time.push_back(t);
+    still.push_back(runs ? 3000.0 : 0.0);
+    creeping.push_back(runs ? 3000.0 : 0.3);
+    z.values.push_back(t < 3600.0 ? 0.0 : runs ? 30.0 * -std::expm1(-(t - 3600.0) / 1800.0) : 10.0);
+  }
+  const SpindleResult expected = evaluateRotatingSpindle(time, still, {z});
+  const SpindleResult r = evaluateRotatingSpindle(time, creeping, {z});
+  EXPECT_EQ(r.start_s, 3600.0);
+  EXPECT_EQ(r.stop_s, 10800.0);
+  EXPECT_EQ(r.components[0].at_end, expected.components[0].at_end);
+  for (double& rpm : creeping) rpm = 0.3;
+  EXPECT_THROW((void)evaluateRotatingSpindle(time, creeping, {z}), InputError);
+}
+
+/// Each change has the uncertainty of the readings it was taken from: the level after an hour lies in the middle of its
+/// window and is surer than those at an edge.
+TEST(Iso2303, EveryChangeHasItsOwnUncertainty) {
+  std::vector<double> time;
+  std::vector<double> speed;
+  ComponentSeries z{"Z_um", "um", {}, 0.3};
+  for (int k = 0; k <= 2000; ++k) {
+    const double t = 10.0 * k;
+    time.push_back(t);
+    speed.push_back(t >= 3600.0 && t < 10800.0 ? 3000.0 : 0.0);
+    z.values.push_back(0.001 * t);
+  }
+  const SpindleComponent c = evaluateRotatingSpindle(time, speed, {z}).components[0];
+  EXPECT_LT(c.first_hour_sigma, 0.8 * c.change_sigma);
+  EXPECT_NEAR(c.after_cooling_sigma, c.change_sigma, 0.1 * c.change_sigma);
+  // Against noise: what is stated is how the values scatter.
+  double first = 0.0;
+  double cooled = 0.0;
+  constexpr int runs = 400;
+  for (int seed = 1; seed <= runs; ++seed) {
+    Random random(static_cast<std::uint64_t>(seed));
+    ComponentSeries noisy = z;
+    for (double& v : noisy.values) v += random.normal(0.0, 0.3);
+    const SpindleComponent n = evaluateRotatingSpindle(time, speed, {noisy}).components[0];
+    first += std::pow((n.first_hour - c.first_hour) / c.first_hour_sigma, 2) / runs;
+    cooled += std::pow((n.after_cooling - c.after_cooling) / c.after_cooling_sigma, 2) / runs;
+  }
+  EXPECT_NEAR(first, 1.0, 0.25);
+  EXPECT_NEAR(cooled, 1.0, 0.25);
+}
+
+/// Single readings: the time grows with their number, not with its square.
+TEST(Iso2303, SingleReadingsOfALongRecordAreQuick) {
+  const auto seconds = [](int rows) {
+    std::vector<double> time;
+    std::vector<double> speed;
+    ComponentSeries z{"Z_um", "um", {}, 0.1};
+    for (int k = 0; k < rows; ++k) {
+      time.push_back(k);
+      speed.push_back(k > rows / 4 && k < rows / 2 ? 1000.0 : 0.0);
+      z.values.push_back(k % 3 == 0 ? std::nan("") : std::sin(k * 1e-3));
+    }
+    const auto from = std::chrono::steady_clock::now();
+    (void)evaluateRotatingSpindle(time, speed, {z}, 0.9, 0.0);
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - from).count();
+  };
+  EXPECT_LT(seconds(400000), 20.0 * std::max(seconds(40000), 0.005));
 }
 
 TEST(Iso2303, RotatingSpindleByHand) {

@@ -110,6 +110,90 @@ TEST(MeasurementUpdate, KalmanUncertaintyHoldsAsOftenAsStated) {
   EXPECT_NEAR(static_cast<double>(inside) / total, 0.95, 0.03);
 }
 
+/// Readings are defined up to a constant; what is drawn from the filter's own prior is only what moves about it.
+TEST(MeasurementUpdate, AConstantOfTheReadingsIsNoErrorAndDoesNotChangeTheStatedUncertainty) {
+  int inside = 0;
+  int total = 0;
+  double squares = 0.0;
+  for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+    Random random(900 + seed);
+    UpdateOptions options;
+    options.offset_sigma = 2.0;
+    options.offset_tau_s = 5000.0;
+    options.gain_sigma = 0.2;
+    options.gain_drift_per_sqrt_h = 0.0;
+    options.measurement_sigma = 0.5;
+    options.interval_s = 1800.0;
+    options.start_s = 600.0;
+    const double constant = random.uniform(-1000.0, 1000.0);
+    const double gain = random.normal(1.0, 0.2);
+    const double begin = random.uniform(-40.0, 40.0);  // where the model stands at the first measurement
+    double offset = random.normal(0.0, 2.0);
+    std::vector<double> time;
+    std::vector<double> truth;
+    std::vector<double> measured;
+    std::vector<double> simulated;
+    const double keep = std::exp(-60.0 / 5000.0);
+    for (int k = 0; k < 300; ++k) {
+      time.push_back(60.0 * k);
+      simulated.push_back(begin + 10.0 * std::sin(k / 60.0));
+      truth.push_back(constant + gain * simulated.back() + offset);
+      measured.push_back(truth.back() + random.normal(0.0, 0.5));
+      offset = keep * offset + random.normal(0.0, 2.0 * std::sqrt(1.0 - keep * keep));
+    }
+    const UpdateRun r = runWithUpdates(time, measured, simulated, options);
+    for (const UpdateEvent& e : r.events) EXPECT_TRUE(e.used) << seed << " at " << e.time_s;
+    EXPECT_TRUE(std::isnan(r.events.front().predicted_before));
+    EXPECT_TRUE(std::isnan(r.sigma[10]));
+    for (std::size_t k = 11; k < time.size(); k += 17) {
+      inside += std::abs(r.predicted[k] - truth[k]) < 1.96 * r.sigma[k];
+      squares += std::pow((r.predicted[k] - truth[k]) / r.sigma[k], 2);
+      ++total;
+    }
+    // The same readings about another zero, of the readings or of the model: the same prediction.
+    for (const UpdateKind kind : {UpdateKind::None, UpdateKind::Gain, UpdateKind::Arx, UpdateKind::Kalman}) {
+      options.kind = kind;
+      options.gain_bound = 3.0;
+      std::vector<double> moved = measured;
+      for (double& v : moved) v -= constant;
+      const UpdateRun a = runWithUpdates(time, measured, simulated, options);
+      const UpdateRun b = runWithUpdates(time, moved, simulated, options);
+      for (std::size_t k = 0; k < time.size(); k += 7) {
+        EXPECT_NEAR(a.predicted[k], b.predicted[k] + constant, 1e-8);
+        if (kind == UpdateKind::Kalman && k > 10) {
+          EXPECT_NEAR(a.sigma[k], b.sigma[k], 1e-9);
+        }
+      }
+      if (kind == UpdateKind::Kalman) continue;  // whose gain is a factor of the model's own value
+      std::vector<double> model = simulated;
+      for (double& v : model) v += 77.0;
+      const UpdateRun c = runWithUpdates(time, measured, model, options);
+      for (std::size_t k = 0; k < time.size(); k += 7) EXPECT_NEAR(a.predicted[k], c.predicted[k], 1e-8);
+    }
+  }
+  EXPECT_NEAR(static_cast<double>(inside) / total, 0.95, 0.02);
+  EXPECT_NEAR(squares / total, 1.0, 0.1);
+}
+
+/// Where the zero is known, a filter does not spend its first measurement on it.
+TEST(MeasurementUpdate, AKnownZeroIsNotLearned) {
+  UpdateOptions options;
+  options.offset_sigma = 1.0;
+  options.zero_known = true;
+  GainOffsetFilter known(options);
+  options.zero_known = false;
+  GainOffsetFilter unknown(options);
+  ASSERT_TRUE(known.measure(12.0, 10.0));
+  ASSERT_TRUE(unknown.measure(12.0, 10.0));
+  EXPECT_GT(known.gain(), 1.05);
+  EXPECT_EQ(unknown.gain(), 1.0);
+  EXPECT_NEAR(unknown.value(10.0), 12.0, 1e-12);
+  EXPECT_NEAR(unknown.sigma(10.0), options.measurement_sigma, 1e-12);
+  EXPECT_NEAR(unknown.sigma(20.0), std::hypot(options.measurement_sigma, 10.0 * options.gain_sigma), 1e-12);
+  EXPECT_EQ(known.state().size(), 2);
+  EXPECT_EQ(unknown.state().size(), 3);
+}
+
 /// The gain is 1 - 0.5 c with c = -1 or 1 in turns; the filter that knows c predicts through a change.
 TEST(MeasurementUpdate, AGainThatDependsOnAKnownSignalIsLearnedOnce) {
   Random random(11);

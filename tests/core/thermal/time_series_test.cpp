@@ -39,6 +39,21 @@ TEST(TimeSeries, ReadsColumnsOfAnyUnitAndKeepsGapsMissing) {
 }
 
 /// A file of several blocks of lines is read as its text is, and its first error is told with its line.
+/// A name says the unit that the values have, and what asks by the name of the file finds it all the same.
+TEST(TimeSeries, AConvertedTemperatureIsNamedByItsUnit) {
+  const TimeSeries s = parseTimeSeries("time_s,T_b_degF,T_c_K,T_c_degC\n0,68,303.15,25\n1,86,304.15,26\n", "log.csv");
+  EXPECT_EQ(s.names(), (std::vector<std::string>{"T_b_degC", "T_c_K_degC", "T_c_degC"}));
+  EXPECT_NEAR(s.at("T_b_degC").values[1], 30.0, 1e-9);
+  EXPECT_EQ(s.find("T_b_degF"), s.find("T_b_degC"));
+  EXPECT_EQ(s.find("T_b_K"), s.find("T_b_degC"));
+  EXPECT_NEAR(s.at("T_c_K").values[0], 30.0, 1e-9);
+  EXPECT_NEAR(s.at("T_c_degC").values[0], 25.0, 1e-9);
+  EXPECT_EQ(s.find("T_d_degF"), nullptr);
+  TimeSeriesOptions celsius;
+  celsius.temperature_unit = "degC";
+  EXPECT_NEAR(parseTimeSeries("time_s,T_b_degF\n0,20\n", "log.csv", celsius).at("T_b_degC").values[0], 20.0, 1e-9);
+}
+
 TEST(TimeSeries, ALongFileIsReadAsItsText) {
   const spindrift::testing::TempFolder folder;
   std::string text = "time_s,T_a_degC,ez_um,remark\n";

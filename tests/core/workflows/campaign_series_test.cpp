@@ -4,10 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <tuple>
 
 #include "core/base/error.h"
 #include "core/base/random.h"
 #include "core/base/text.h"
+#include "core/thermal/compensator.h"
 #include "core/workflows/thermal_workflow.h"
 #include "tests/support/temp_folder.h"
 
@@ -87,6 +89,75 @@ TEST(CampaignSeries, SparseObservationsJoinTheFastLogAndGiveTheModel) {
   request.method.clear();
   request.test = {126000.0, 144000.0};
   EXPECT_THROW(static_cast<void>(identifyThermalModel(found.series, request, job)), InputError);
+}
+
+/// An output keeps the unit of its name, whatever finds its model, and a machine is compensated in no other.
+TEST(CampaignSeries, AModelStatesTheUnitOfItsOutput) {
+  Random random(3);
+  TimeSeries series;
+  std::vector<double> rpm, growth;
+  double state = 0.0;
+  for (int k = 0; k < 1200; ++k) {
+    series.time_s.push_back(30.0 * k);
+    rpm.push_back((k / 100) % 2 == 1 ? 1000.0 * static_cast<double>(1 + (k / 200) % 3) : 0.0);
+    growth.push_back(20.0 * state + random.normal(0.0, 0.2));
+    state += (1.0 - std::exp(-30.0 / 900.0)) * (rpm.back() / 3000.0 - state);
+  }
+  for (const auto& [name, unit, loads] : {std::tuple{"Z_um", "um", true},
+                                          {"A_urad", "urad", true},
+                                          {"Z_nm", "nm", false},
+                                          {"A_mrad", "mrad", false},
+                                          {"EXX_um_per_m", "um/m", false},
+                                          {"growth", "", false}}) {
+    series.signals = {{"spindle_rpm", SignalKind::Speed, rpm}, {name, signalKind(name, growth), growth}};
+    for (const char* method : {"response", "arx", "oe"}) {
+      IdentifyRequest request;
+      request.output = name;
+      request.inputs = {"spindle_rpm"};
+      request.method = method;
+      request.train = {0.0, 24000.0};
+      request.test = {24000.0, 36000.0};
+      JobContext job;
+      const IdentifyResult found = identifyThermalModel(series, request, job);
+      EXPECT_EQ(found.model.outputs.front().unit, unit) << name << " by " << method;
+      if (found.model.outputs.front().terms.empty()) continue;
+      Compensator compensator;
+      CompensatorLimits forced;
+      forced.forced = true;
+      EXPECT_EQ(compensator.load(found.model, 1.0, forced).empty(), loads) << name << " by " << method;
+    }
+  }
+}
+
+/// Of a column in Fahrenheit: the model names the unit that its numbers have, and the log is still found by it.
+TEST(CampaignSeries, AModelOfAConvertedTemperatureNamesItsUnit) {
+  std::string text = "time_s,T_b_degF,Z_um\n";
+  Random random(4);
+  double state = 20.0;
+  double room = 20.0;
+  for (int k = 0; k < 1200; ++k) {
+    if (k % 150 == 0) room = random.uniform(20.0, 40.0);
+    state += (1.0 - std::exp(-30.0 / 900.0)) * (room - state);
+    text += std::to_string(30 * k) + "," + exactNumber(32.0 + 1.8 * room) + "," +
+            exactNumber(2.0 * state + random.normal(0.0, 0.1)) + "\n";
+  }
+  const TimeSeries series = parseTimeSeries(text, "log.csv");
+  for (const char* asked : {"T_b_degF", "T_b_degC", ""}) {
+    IdentifyRequest request;
+    request.output = "Z_um";
+    if (*asked != 0) request.inputs = {asked};
+    request.train = {0.0, 24000.0};
+    request.test = {24000.0, 36000.0};
+    JobContext job;
+    IdentifyResult found = identifyThermalModel(series, request, job);
+    ASSERT_FALSE(found.model.inputs.empty());
+    EXPECT_EQ(found.model.inputs.front().name, "T_b_degC") << asked;
+    EXPECT_LT(found.model.inputs.front().train_max, 41.0);
+    // A model that names its input as the file did predicts the same.
+    const std::vector<double> expected = found.model.predict(series, 0).value;
+    for (ThermalInput& input : found.model.inputs) input.name = "T_b_degF";
+    EXPECT_EQ(found.model.predict(series, 0).value, expected);
+  }
 }
 
 TEST(CampaignSeries, SaysWhatIsMissing) {

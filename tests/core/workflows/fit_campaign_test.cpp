@@ -48,6 +48,34 @@ Campaign someCampaign(const std::vector<Eigen::Vector3d>& points) {
 
 const std::vector<Eigen::Vector3d> five{{20, 15, 0}, {280, 15, 0}, {280, 115, 0}, {20, 115, 0}, {150, 65, 0}};
 
+/// Two readings that share more than they have: the covariance is none.
+TEST(FitWorkflow, ARejectedFitStatesNothing) {
+  Campaign campaign = someCampaign(five);
+  ObservationSet& set = *campaign.observations;
+  const std::size_t half = set.rows.size() / 2;
+  const std::vector<CovarianceEntry> too_large{{half, half + 3, 1.0}};
+  set.setCovariances(too_large);
+  const NineParameterFit fit = fitNineParameters(set, {.state = "M1"});
+  ASSERT_EQ(fit.status, FitStatus::Rejected);
+  const nlohmann::json json = toJson(fit);
+  for (const auto& [name, parameter] : json.at("parameters").items()) {
+    EXPECT_TRUE(parameter.at("value").is_null()) << name;
+    EXPECT_TRUE(parameter.at("standard_uncertainty").is_null()) << name;
+  }
+  for (const char* key : {"condition_number", "chi2", "p_value", "rms_fit_um"})
+    EXPECT_TRUE(json.at(key).is_null()) << key;
+  EXPECT_TRUE(json.at("covariance").at(0).at(0).is_null());
+  EXPECT_TRUE(json.at("lack_of_fit_um").at("EX").is_null());
+  EXPECT_EQ(json.at("undetermined").size(), 9U);
+  EXPECT_THAT(summaryOf(fit), HasSubstr("EX    not determined"));
+  EXPECT_THAT(summaryOf(fit), ::testing::Not(HasSubstr("condition number")));
+  EXPECT_FALSE(nineParameterMaps(campaign.machine, fit, {}, {}).has_value());
+  const NineParameterComparison compared =
+      compareNineParameters(set, {.state = "M1", .points = {"F1", "F2", "F3"}}, {.state = "M1"});
+  EXPECT_THAT(summaryOf(compared), ::testing::Not(HasSubstr("agree")));
+  EXPECT_THAT(summaryOf(compared), ::testing::Not(HasSubstr("equal")));
+}
+
 TEST(FitWorkflow, MapsThatAreShownAreThoseOfTheModel) {
   Campaign campaign = someCampaign(five);
   const NineParameterFit fit = fitNineParameters(*campaign.observations, {.state = "M1"});

@@ -9,6 +9,7 @@
 
 #include "core/base/error.h"
 #include "core/base/json_reader.h"
+#include "core/base/unit_text.h"
 #include "core/workflows/campaign_series.h"
 #include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"

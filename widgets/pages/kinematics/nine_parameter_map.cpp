@@ -61,7 +61,9 @@ void NineParameterPage::showField() {
   if (!result_->maps) {
     field_.reset();
     view_->clear();
-    view_->setEmptyText(tr("No map"), tr("The machine has no X or no Y axis; describe it on the page Machine."));
+    view_->setEmptyText(tr("No map"), result_->fit.status == FitStatus::Rejected
+                                          ? coreSentence(result_->fit.message)
+                                          : tr("The machine has no X or no Y axis; describe it on the page Machine."));
     return;
   }
   const NineParameterMaps& maps = *result_->maps;

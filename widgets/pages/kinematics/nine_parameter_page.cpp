@@ -336,13 +336,13 @@ void NineParameterPage::showFit() {
         QString::fromStdString(r.point) + QLatin1Char('/') + QString::fromStdString(std::string(toString(r.component)));
     Cell name{QString::fromStdString(r.point)};
     name.bold = true;
-    Cell in_sigma{decimalText(std::abs(r.inSigmas()), 'f', 1)};
+    Cell in_sigma{std::isfinite(r.residual_um) ? decimalText(std::abs(r.inSigmas()), 'f', 1) : QStringLiteral("–")};
     in_sigma.right = true;
     if (r.outlying()) {
       in_sigma.tone = Tone::Attention;
       in_sigma.icon = "alert";
     }
-    Cell residual{decimalText(r.residual_um, 'f', 2)};
+    Cell residual{std::isfinite(r.residual_um) ? decimalText(r.residual_um, 'f', 2) : QStringLiteral("–")};
     residual.right = true;
     row.cells = {name,
                  {QString::fromStdString(std::string(toString(r.component))) + QStringLiteral(" / µm")},
@@ -361,7 +361,7 @@ void NineParameterPage::showFit() {
   rms_fit_->set(rms(f.rms_fit_um), tr("over the checked points"));
   rms_validation_->set(rms(f.rms_validation_um),
                        f.rms_validation_um ? tr("over the other points") : tr("uncheck a point to validate"));
-  condition_->set(decimalText(f.condition_number, 'g', 3),
+  condition_->set(std::isfinite(f.condition_number) ? decimalText(f.condition_number, 'g', 3) : QStringLiteral("–"),
                   f.p_value ? tr("χ² test: %1").arg(shownNumbers(QString::fromStdString(pValueText(*f.p_value))))
                             : tr("no degrees of freedom left"));
   showComparison();
@@ -396,6 +396,8 @@ void NineParameterPage::showComparison() {
     rows.push_back(std::move(row));
   }
   comparison_->setRows(std::move(rows));
+  for (const NineParameterFit* fit : {&c.a, &c.b})
+    if (fit->status == FitStatus::Rejected) return comparison_verdict_->show(Tone::Bad, coreSentence(fit->message));
   if (differing.isEmpty()) {
     comparison_verdict_->show(Tone::Good,
                               tr("Both sets of points give the same model within their uncertainty (p = %1).")

@@ -15,6 +15,7 @@
 #include <utility>
 
 #include "core/base/error.h"
+#include "core/base/unit_text.h"
 #include "core/base/units.h"
 #include "core/tasks/task_options.h"
 #include "core/thermal/response_fit.h"

@@ -8,6 +8,7 @@
 
 #include "core/base/error.h"
 #include "core/base/json_reader.h"
+#include "core/base/unit_text.h"
 #include "core/thermal/thermal_model.h"
 #include "core/workflows/campaign_series.h"
 #include "core/workflows/live_compensation.h"

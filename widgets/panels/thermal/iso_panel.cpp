@@ -168,7 +168,7 @@ void IsoPanel::showSpindle(const SpindleResult& result) {
     row.id = fromCore(c.name);
     const QString unit = unitText(c.unit);
     row.cells = {nameCell(row.id), Cell{tr("at the end %1").arg(quantityText(c.at_end, c.change_sigma, unit))},
-                 Cell{tr("first hour %1").arg(quantityText(c.first_hour, c.change_sigma, unit))},
+                 Cell{tr("first hour %1").arg(quantityText(c.first_hour, c.first_hour_sigma, unit))},
                  Cell{std::isfinite(c.time_to_fraction_s) ? tr("%1 % after %2 min")
                                                                 .arg(decimalText(100 * result.fraction, 'f', 0))
                                                                 .arg(decimalText(c.time_to_fraction_s / 60, 'f', 0))
