@@ -16,6 +16,7 @@
 #include "core/base/no_number.h"
 #include "core/base/text.h"
 #include "core/connect/append_file.h"
+#include "core/connect/utc_time.h"
 #include "core/workflows/loop_models.h"
 #include "core/workflows/loop_search.h"
 #include "core/workflows/loop_state.h"
@@ -42,13 +43,14 @@ void nap() {
 class ClosedLoop {
  public:
   ClosedLoop(const LoopPlan& plan, MachineControl& control, const LoopOperator& who,
-             const std::filesystem::path& folder, JobContext& job, const LoopLook& look)
+             const std::filesystem::path& folder, JobContext& job, const LoopLook& look, UtcOfZero utc_of_zero)
       : plan_(plan),
         control_(control),
         who_(who),
         folder_(folder),
         job_(job),
         look_(look),
+        utc_of_zero_(std::move(utc_of_zero)),
         channel_(plan.limits),
         log_file_(folder / "log.csv"),
         cycle_text_(measuringProgram(plan)),
@@ -64,7 +66,9 @@ class ClosedLoop {
       writeCampaign();
     }
     try {
+      const bool dated = time_s_ > 0.0;  // by the run that began it
       begin();
+      if (!dated) writeHead();
       loop();
       end();
     } catch (const InputError& error) {
@@ -427,12 +431,18 @@ class ClosedLoop {
 
   // --- the campaign
 
-  void writeCampaign() {
-    const nlohmann::json campaign = {{"format", "spindrift-campaign"},
-                                     {"version", 1},
-                                     {"name", "closed loop"},
-                                     {"start_utc", "2026-01-31T08:00:00Z"}};
+  /// Time 0 is the machine's: known once its clock has been read, until then this moment.
+  void writeHead() {
+    const nlohmann::json campaign = {
+        {"format", "spindrift-campaign"},
+        {"version", 1},
+        {"name", "closed loop"},
+        {"start_utc", utcText(utc_of_zero_ ? utc_of_zero_(time_s_) : unixNow() - time_s_)}};
     writeFileAtomically(folder_ / "campaign.json", campaign.dump(1));
+  }
+
+  void writeCampaign() {
+    writeHead();
     writeFileAtomically(folder_ / "machine.json", plan_.machine.source.dump(1));
     std::string header = "time_s,spindle_rpm";
     for (const std::string& column : plan_.temperatures) header += "," + csvField(column);
@@ -552,6 +562,7 @@ class ClosedLoop {
   std::filesystem::path folder_;
   JobContext& job_;
   LoopLook look_;
+  UtcOfZero utc_of_zero_;
   CompensationChannel channel_;
   AppendFile log_file_;
   std::string cycle_text_;
@@ -589,14 +600,15 @@ class ClosedLoop {
 }  // namespace
 
 LoopResult runClosedLoop(const LoopPlan& plan, MachineControl& control, const LoopOperator& who,
-                         const std::filesystem::path& folder, JobContext& job, const LoopLook& look) {
+                         const std::filesystem::path& folder, JobContext& job, const LoopLook& look,
+                         UtcOfZero utc_of_zero) {
   plan.validate();
   if (std::filesystem::exists(folder) && !std::filesystem::is_empty(folder) &&
       !std::filesystem::exists(folder / loop_state_file))
     throw InputError(
         fmt::format("{} is not empty; allowed: a new or empty folder, or that of the same loop.", folder.string()));
   std::filesystem::create_directories(folder);
-  return ClosedLoop(plan, control, who, folder, job, look).run();
+  return ClosedLoop(plan, control, who, folder, job, look, std::move(utc_of_zero)).run();
 }
 
 }  // namespace spindrift

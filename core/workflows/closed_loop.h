@@ -176,11 +176,16 @@ struct LoopResult {
 /// Called with every turn, some ten times a second, on the thread of the loop.
 using LoopLook = std::function<void(const LoopStatus&, const LoopResult&)>;
 
+/// When the machine's time was 0, UTC in s since 1970, asked while it is `time_s`.
+using UtcOfZero = std::function<double(double time_s)>;
+
 /// Runs to the end of the plan, or until the operator stops it, and leaves a campaign in `folder`: new, empty, or that
 /// of the same plan's loop that was ended before, which then goes on. Throws InputError: the start-up check fails, not
-/// confirmed, the folder holds something else; Cancelled, after the compensation has faded.
+/// confirmed, the folder holds something else; Cancelled, after the compensation has faded. `utc_of_zero` dates
+/// the campaign; empty: by the system's clock.
 [[nodiscard]] LoopResult runClosedLoop(const LoopPlan& plan, MachineControl& control, const LoopOperator& who,
-                                       const std::filesystem::path& folder, JobContext& job, const LoopLook& look = {});
+                                       const std::filesystem::path& folder, JobContext& job, const LoopLook& look = {},
+                                       UtcOfZero utc_of_zero = {});
 
 /// Programme of one measuring cycle, from above `start_mm`.
 [[nodiscard]] std::string measuringProgram(const LoopPlan& plan);

@@ -17,6 +17,7 @@
 #include "core/base/csv.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/connect/utc_time.h"
 #include "core/control/private_control.h"
 #include "core/workflows/machine_beside_control.h"
 
@@ -164,7 +165,9 @@ std::string runInside(const LoopDemoOptions& options) {
     return ids;
   };
   JobContext job;
-  const LoopResult result = runClosedLoop(plan, control, who, options.folder / "campaign", job);
+  const LoopResult result = runClosedLoop(plan, control, who, options.folder / "campaign", job, {}, [](double) {
+    return *parseUtc("2026-01-31T08:00:00Z");
+  });  // the same every time
   writeFileAtomically(options.folder / "report.html", result.report("Closed loop"));
   return {};
 }

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -15,6 +16,8 @@
 #include "core/base/error.h"
 #include "core/base/random.h"
 #include "core/base/text.h"
+#include "core/connect/utc_time.h"
+#include "core/machine/campaign.h"
 #include "core/workflows/closed_loop.h"
 #include "core/workflows/closed_loop_demo.h"
 #include "core/workflows/loop_models.h"
@@ -88,7 +91,7 @@ TEST(LoopAtAStandIn, GoesOnWhereItWasKilledAndLosesNothing) {
       [](const LoopStatus&, const LoopResult& r) { return r.cycles.size() == 3; },
       [](const LoopStatus& s, const LoopResult&) { return s.stage == LoopStage::Identified && s.time_s > 3000.0; },
       [](const LoopStatus& s, const LoopResult& r) { return s.measuring && r.cycles.size() > 14; }};
-  std::string log, observations;
+  std::string log, observations, start;
   std::size_t cycles = 0;
   LoopStage stage = LoopStage::None;
   for (const auto& killed : moments) {
@@ -106,6 +109,16 @@ TEST(LoopAtAStandIn, GoesOnWhereItWasKilledAndLosesNothing) {
                                        if (killed(status, result)) throw Killed{};
                                      }),
                  Killed);
+    // The date is that of the machine's time 0, not one that the program has by heart. The stand-in's hours pass in
+    // seconds, so its time 0 lies before the test.
+    const std::string start_now = Campaign::read(campaign).start_utc;
+    if (start.empty()) {
+      const double now_s = std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
+      EXPECT_LE(*parseUtc(start_now), now_s + 1.0);
+      EXPECT_GT(*parseUtc(start_now), now_s - plan.duration_s - 3600.0);
+      start = start_now;
+    }
+    EXPECT_EQ(start_now, start);
     // What stood in the files before still does.
     const std::string log_now = readFile(campaign / "log.csv");
     const std::string observations_now = readFile(campaign / "observations.csv");
@@ -124,6 +137,7 @@ TEST(LoopAtAStandIn, GoesOnWhereItWasKilledAndLosesNothing) {
   StandInControl control(machine);
   const LoopResult result = runClosedLoop(plan, control, who, campaign, job);
   EXPECT_TRUE(result.completed);
+  EXPECT_EQ(Campaign::read(campaign).start_utc, start) << "a loop that goes on began when it began";
   EXPECT_EQ(result.resumed, 3);
   ASSERT_GT(result.cycles.size(), cycles + 2);
   EXPECT_TRUE(readFile(campaign / "observations.csv").starts_with(observations));
