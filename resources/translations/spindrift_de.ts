@@ -9868,6 +9868,30 @@ endgültig fehlgeschlagen: {}</translation>
         <source>step-response model</source>
         <translation>Sprungantwortmodell</translation>
     </message>
+    <message>
+        <source>the image is cut short: it has {} bytes, {:.0f} x {:.0f} pixels need {:.0f}; copy it again.</source>
+        <translation>Das Bild ist abgeschnitten: es hat {} Bytes, {:.0f} x {:.0f} Pixel brauchen {:.0f}; bitte neu kopieren.</translation>
+    </message>
+    <message>
+        <source>1, or -1 if the table is counted the other way round</source>
+        <translation>1, oder -1, wenn der Tisch andersherum gezählt wird</translation>
+    </message>
+    <message>
+        <source>a standard uncertainty of {:g}; allowed: 0 or more.</source>
+        <translation>Standardunsicherheit {:g}; erlaubt: 0 oder mehr.</translation>
+    </message>
+    <message>
+        <source>a table angle of {:g}° is not allowed; allowed: {:g} to {:g}°.</source>
+        <translation>Der Tischwinkel {:g}° ist nicht erlaubt; erlaubt: {:g} bis {:g}°.</translation>
+    </message>
+    <message>
+        <source>cannot be touched {:g} mm deep: the tip of stylus {} lies {:g} mm below the spindle reference, which stays {:g} mm above the bar; allowed: depth_mm up to {:g} mm.</source>
+        <translation>kann nicht {:g} mm tief angetastet werden: die Kugel des Tasters {} liegt {:g} mm unter der Spindelreferenz, die {:g} mm über der Leiste bleibt; erlaubt: depth_mm bis {:g} mm.</translation>
+    </message>
+    <message>
+        <source>the spindle reference goes to {:.2f} mm above the top of the bar; allowed: {:.2f} mm</source>
+        <translation>die Spindelreferenz fährt auf {:.2f} mm über der Oberseite der Leiste; erlaubt: {:.2f} mm</translation>
+    </message>
 </context>
 <context>
     <name>help</name>
