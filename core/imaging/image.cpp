@@ -58,6 +58,7 @@ bool pngIsComplete(std::string_view bytes) {
 struct StatedSize {
   double width = 0.0;
   double height = 0.0;
+  double least_bytes = 0.0;  ///< of a file of raw pixels; 0: not known beforehand
 };
 
 /// Size that the JPEG's frame header states; zero if there is none.
@@ -94,14 +95,22 @@ StatedSize statedSize(std::string_view bytes) {
   }
   if (bytes.size() > 2 && bytes[0] == 'P' && bytes[1] >= '1' && bytes[1] <= '6') {
     StatedSize size;
+    double levels = 255.0;
+    const bool has_levels = bytes[1] != '1' && bytes[1] != '4';
     std::size_t i = 2;
-    for (double* value : {&size.width, &size.height}) {
+    for (double* value : {&size.width, &size.height, &levels}) {
+      if (value == &levels && !has_levels) break;
+      if (value == &levels) levels = 0.0;
       while (i < bytes.size() && (std::isspace(static_cast<unsigned char>(bytes[i])) != 0 || bytes[i] == '#')) {
         if (bytes[i] == '#') i = std::min(bytes.find('\n', i), bytes.size() - 1);
         ++i;
       }
       for (; i < bytes.size() && bytes[i] >= '0' && bytes[i] <= '9'; ++i) *value = 10.0 * *value + (bytes[i] - '0');
     }
+    // One white space, then the pixels; as text each of them takes a digit at least.
+    const double row = bytes[1] == '4' ? std::ceil(size.width / 8.0) : size.width * (levels > 255.0 ? 2.0 : 1.0);
+    const double colours = bytes[1] == '3' || bytes[1] == '6' ? 3.0 : 1.0;
+    size.least_bytes = static_cast<double>(i) + 1.0 + row * size.height * colours;
     return size;
   }
   if (bytes.starts_with(std::string_view("II*\0", 4)) || bytes.starts_with(std::string_view("MM\0*", 4))) {
@@ -166,6 +175,12 @@ GrayImage decodeImageBytes(std::string_view bytes, const std::filesystem::path& 
                      fmt::format("the file has {} bytes; at most {} are allowed.", bytes.size(), largest_image_file));
   const StatedSize stated = statedSize(bytes);
   requireSize(name, stated.width, stated.height);
+  if (static_cast<double>(bytes.size()) < stated.least_bytes) {
+    throw InputError({name, ""},
+                     fmt::format("the image is cut short: it has {} bytes, {:.0f} x {:.0f} pixels need {:.0f}; copy it "
+                                 "again.",
+                                 bytes.size(), stated.width, stated.height, stated.least_bytes));
+  }
   cv::Mat mat;
   if (stated.width > 0.0 && stated.height > 0.0) {
     try {

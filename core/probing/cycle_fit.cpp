@@ -233,6 +233,15 @@ class Solver {
       part.A.col(p) /= part.unscale(p);
     }
     part.unscale = part.unscale.cwiseProduct(scale_).cwiseInverse();
+    if (part.A.rows() == 0) {
+      // No touch of the cycle is left: nothing of it is seen.
+      part.range.resize(0, 0);
+      part.inverse.resize(n, 0);
+      part.null = Eigen::MatrixXd::Identity(n, n);
+      part.condition = std::numeric_limits<double>::infinity();
+      part.weakest = part.null.col(n - 1);
+      return;
+    }
     const Eigen::JacobiSVD<Eigen::MatrixXd> svd(part.A, Eigen::ComputeThinU | Eigen::ComputeFullV);
     const auto& s = svd.singularValues();
     Eigen::Index rank = 0;
@@ -474,9 +483,10 @@ class Solver {
       } else {
         all = false;
         solution.status = FitStatus::Degenerate;
-        solution.message = "not determined by the touches that are there:";
+        solution.message = part.rows.empty() ? "none of its touches is left, so nothing is determined:"
+                                             : "not determined by the touches that are there:";
         for (const std::string& name : open) solution.message += " " + name;
-        if (part.null.cols() > 0) {
+        if (part.null.cols() > 0 && !part.rows.empty()) {
           solution.message += fmt::format(" (open combination: {})",
                                           combinationText(part.null.col(part.null.cols() - 1), problem_.parameters));
         }

@@ -104,6 +104,15 @@ void planHoles(const MachineDescription& machine, const Artefact& artefact, cons
   const double room = 0.5 * *artefact.hole_diameter_mm - stylus.radius_mm;
   if (room < 0.5)
     reject(fmt::format("stylus {} leaves {:.3f} mm of room in the hole; allowed: 0.5 mm.", stylus.id, room));
+  // The spindle is wider than any hole: it stays above the bar.
+  const double deepest_mm = -stylus.offset_mm.z() - options.clearance_mm;
+  if (options.depth_mm > deepest_mm + 1e-9) {
+    reject(
+        fmt::format("cannot be touched {:g} mm deep: the tip of stylus {} lies {:g} mm below the spindle reference, "
+                    "which stays {:g} mm above the bar; allowed: depth_mm up to {:g} mm.",
+                    printed(options.depth_mm), stylus.id, printed(-stylus.offset_mm.z()), printed(options.clearance_mm),
+                    printed(std::max(0.0, deepest_mm))));
+  }
   const double top = setup.nominal_mm(0, 0.0).z();
   plan.safe_height_mm = top + options.retract_mm + stylus.radius_mm;
   const double near_height = top + options.clearance_mm + stylus.radius_mm;

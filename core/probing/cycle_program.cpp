@@ -344,18 +344,13 @@ class Obstacles {
       const Stylus& s = machine_.styli.front();
       const Eigen::Vector3d tip = reference + s.offset_mm;
       if (tip.z() - s.radius_mm >= top_ - 1e-9) return 0;
-      int nearest = -1;
-      double best = 1e300;
-      for (std::size_t h = 0; h < setup_.along_mm.size(); ++h) {
-        const Eigen::Vector3d d = tip - setup_.nominal_mm(static_cast<int>(h), c_deg);
-        const double distance = d.head<2>().norm();
-        if (distance < best) {
-          best = distance;
-          nearest = static_cast<int>(h) + 1;
-        }
-      }
-      if (best + s.radius_mm <= radius_ + 1e-9) return 0;
-      return best < radius_ + 20.0 ? nearest : -1;
+      const auto [nearest, best] = nearestHole(tip, c_deg);
+      if (best + s.radius_mm > radius_ + 1e-9) return best < radius_ + 20.0 ? nearest : -1;
+      // The shaft, thinner than the tip, where it enters the hole.
+      const double length = reference.z() - tip.z();
+      const double inside = std::clamp(length > 0.0 ? (top_ - tip.z()) / length : 0.0, 0.0, 1.0);
+      const Eigen::Vector3d rim = tip - inside * s.offset_mm;
+      return nearestHole(rim, c_deg).second + 0.6 * s.radius_mm > radius_ + 1e-9 ? -1 : 0;
     }
     for (std::size_t b = 0; b < artefact_.balls.size(); ++b) {
       const Eigen::Vector3d centre = options_.first_ball_mm + artefact_.balls[b].certified_mm;
@@ -372,6 +367,13 @@ class Obstacles {
     return 0;
   }
 
+  /// Height of the spindle reference above a bar that would have to give way to the spindle, mm; nothing for balls,
+  /// beside which it may stand.
+  [[nodiscard]] std::optional<double> spindleAbove(const Eigen::Vector3d& reference) const {
+    if (!holes()) return std::nullopt;
+    return reference.z() - top_;
+  }
+
   /// Height of the lowest point of the probe above the highest material, mm.
   [[nodiscard]] double heightAbove(const Eigen::Vector3d& reference) const {
     double lowest = 1e300;
@@ -383,6 +385,16 @@ class Obstacles {
   }
 
  private:
+  /// Index (from 1) of the hole whose axis is nearest, and how far it is.
+  [[nodiscard]] std::pair<int, double> nearestHole(const Eigen::Vector3d& at, double c_deg) const {
+    std::pair<int, double> nearest{-1, 1e300};
+    for (std::size_t h = 0; h < setup_.along_mm.size(); ++h) {
+      const double distance = (at - setup_.nominal_mm(static_cast<int>(h), c_deg)).head<2>().norm();
+      if (distance < nearest.second) nearest = {static_cast<int>(h) + 1, distance};
+    }
+    return nearest;
+  }
+
   const MachineDescription& machine_;
   const Artefact& artefact_;
   const ProgramCheckOptions& options_;
@@ -481,6 +493,10 @@ ProgramCheck checkProgram(std::string_view text, const MachineDescription& machi
                 : motion == 1 ? MoveKind::Retract
                               : MoveKind::Rapid;
     if (!touch && !guarded && motion < 0) issue("a move without G0 or G1");
+    if (const auto above = obstacles.spindleAbove(target); above && *above < options.clearance_mm - 1e-6) {
+      issue(fmt::format("the spindle reference goes to {:.2f} mm above the top of the bar; allowed: {:.2f} mm", *above,
+                        options.clearance_mm));
+    }
     if (touch) {
       move.feature = static_cast<int>(word('A').value_or(0.0));
       move.stylus = static_cast<int>(word('B').value_or(0.0));

@@ -179,6 +179,12 @@ ReferenceComparison compareWithReference(const CycleEvaluation& evaluation, cons
           fmt::format("time runs backwards from {} s to {} s; allowed: rows in order of time.", time[i - 1], time[i]));
     }
   }
+  for (std::size_t i = 0; i < sigma.size(); ++i) {
+    if (!(sigma[i] >= 0.0)) {
+      throw InputError(table.place(i, table.column("sigma")),
+                       fmt::format("a standard uncertainty of {:g}; allowed: 0 or more.", sigma[i]));
+    }
+  }
   ReferenceComparison comparison;
   comparison.name = parameter;
   std::vector<double> probe_sigma;

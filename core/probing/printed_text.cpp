@@ -50,6 +50,7 @@ PrintedTextReader::PrintedTextReader(std::filesystem::path name, const JsonNode&
   interval_s_ = positive("touch_interval_s", 3.0);
   cycle_interval_s_ = positive("cycle_interval_s", 0.0);
   c_sign_ = pattern.numberOr("c_sign", 1.0);
+  if (std::abs(c_sign_) != 1.0) pattern.at("c_sign").reject("1, or -1 if the table is counted the other way round");
   decimal_comma_ = pattern.booleanOr("decimal_comma", false);
   day_of_month_ = pattern.has("clock") && pattern.at("clock").oneOf({"running", "day_of_month"}) == "day_of_month";
   const std::string line = pattern.at("touch_line").string();
@@ -127,6 +128,10 @@ Touch PrintedTextReader::touchOf(const Values& values) {
   }
   t.c_deg = c_sign_ * number(values, "c_deg", 0.0);
   if (t.c_deg == 0.0) t.c_deg = 0.0;
+  if (std::abs(t.c_deg) > most_turned_deg) {
+    throw InputError(place("{c_deg}"), fmt::format("a table angle of {:g}° is not allowed; allowed: {:g} to {:g}°.",
+                                                   t.c_deg, -most_turned_deg, most_turned_deg));
+  }
   t.position_mm =
       mm_per_unit_ * Eigen::Vector3d(number(values, "x", 0.0), number(values, "y", 0.0), number(values, "z", 0.0));
   t.approach = Eigen::Vector3d(number(values, "nx", 0.0), number(values, "ny", 0.0), number(values, "nz", 0.0));

@@ -77,6 +77,11 @@ TouchList TouchList::parse(std::string text, const std::filesystem::path& file) 
     t.feature = table.requiredText(row, feature);
     t.stylus = table.requiredText(row, stylus);
     t.c_deg = table.number(row, c_deg);
+    if (std::abs(t.c_deg) > most_turned_deg) {
+      throw InputError(table.place(row, c_deg),
+                       fmt::format("a table angle of {:g}° is not allowed; allowed: {:g} to {:g}°.", t.c_deg,
+                                   -most_turned_deg, most_turned_deg));
+    }
     const double number = table.number(row, touch);
     if (number < 0.0 || number > 1e6 || number != std::floor(number)) {
       throw InputError(table.place(row, touch),

@@ -16,6 +16,9 @@
 
 namespace spindrift {
 
+/// A table that counts on has turned no further than this; larger angles are no angles.
+inline constexpr double most_turned_deg = 36000.0;
+
 struct Touch {
   double time_s = 0.0;  ///< since the campaign start
   std::string cycle;    ///< "M0", "M1", ...

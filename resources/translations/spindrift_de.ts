@@ -9877,8 +9877,36 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>$AN_CEC in mm, eine Tabelle für jede Achse, die über der Position einer anderen bewegt wird: die Abweichung selbst, {}, null an der Bezugsposition; ein positiver Wert bewegt die Achse in negativer Richtung. Mit den Tabellen von $AA_ENC_COMP sind alle Verschiebungen entlang der Achsen durch die Bezugsposition kompensiert; was von zwei Achsen zugleich abhängt (die Terme höherer Ordnung), steht in keiner solchen Tabelle. Sie steht anstelle der Tabellen, die die Steuerung hat. Jenseits des Gemessenen ist sie extrapoliert; die Tabellen nach ISO 230-1 sagen, wo.</translation>
     </message>
     <message>
+        <source>the image is cut short: it has {} bytes, {:.0f} x {:.0f} pixels need {:.0f}; copy it again.</source>
+        <translation>Das Bild ist abgeschnitten: es hat {} Bytes, {:.0f} x {:.0f} Pixel brauchen {:.0f}; bitte neu kopieren.</translation>
+    </message>
+    <message>
+        <source>1, or -1 if the table is counted the other way round</source>
+        <translation>1, oder -1, wenn der Tisch andersherum gezählt wird</translation>
+    </message>
+    <message>
+        <source>a standard uncertainty of {:g}; allowed: 0 or more.</source>
+        <translation>Standardunsicherheit {:g}; erlaubt: 0 oder mehr.</translation>
+    </message>
+    <message>
+        <source>a table angle of {:g}° is not allowed; allowed: {:g} to {:g}°.</source>
+        <translation>Der Tischwinkel {:g}° ist nicht erlaubt; erlaubt: {:g} bis {:g}°.</translation>
+    </message>
+    <message>
+        <source>cannot be touched {:g} mm deep: the tip of stylus {} lies {:g} mm below the spindle reference, which stays {:g} mm above the bar; allowed: depth_mm up to {:g} mm.</source>
+        <translation>kann nicht {:g} mm tief angetastet werden: die Kugel des Tasters {} liegt {:g} mm unter der Spindelreferenz, die {:g} mm über der Leiste bleibt; erlaubt: depth_mm bis {:g} mm.</translation>
+    </message>
+    <message>
+        <source>the spindle reference goes to {:.2f} mm above the top of the bar; allowed: {:.2f} mm</source>
+        <translation>die Spindelreferenz fährt auf {:.2f} mm über der Oberseite der Leiste; erlaubt: {:.2f} mm</translation>
+    </message>
+    <message>
         <source>compensation = minus the predicted deviation, to be added to the command; deviation = actual minus commanded, as the log measures it; rms_after is of measured deviation plus compensation, both about their mean over the rows that trained the model (over all rows where none did); reduction_percent is positive where the rms became smaller</source>
         <translation>Kompensation = minus die vorhergesagte Abweichung, zum Sollwert zu addieren; Abweichung = Ist minus Soll, wie das Protokoll sie misst; rms_after ist von gemessener Abweichung plus Kompensation, beide um ihren Mittelwert über die Zeilen, die das Modell trainiert haben (über alle Zeilen, wo es keine gibt); reduction_percent ist positiv, wo der rms kleiner wurde</translation>
+    </message>
+    <message>
+        <source>none of its touches is left, so nothing is determined:</source>
+        <translation>keine ihrer Antastungen ist übrig, also ist nichts bestimmt:</translation>
     </message>
 </context>
 <context>

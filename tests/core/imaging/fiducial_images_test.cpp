@@ -113,6 +113,19 @@ TEST(ReadImage, OnlyTheFormatsThatAreNamedAreRead) {
   }
 }
 
+TEST(ReadImage, ACutShortPgmIsToldBeforeAnyDecoderSeesIt) {
+  const std::string pixels(6, 'a');
+  for (const std::string& head : {std::string("P5\n3 2\n255\n"), std::string("P5 3 2 # levels\n255 ")}) {
+    EXPECT_EQ(decodeImageBytes(head + pixels, "a.pgm").width(), 3);
+    ::testing::internal::CaptureStderr();
+    EXPECT_THAT(testing::refusal([&] { (void)decodeImageBytes(head + pixels.substr(1), "a.pgm"); }),
+                AllOf(HasSubstr("a.pgm"), HasSubstr("cut short"), HasSubstr("3 x 2")));
+    EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
+  }
+  EXPECT_EQ(decodeImageBytes("P5\n3 2\n65535\n" + pixels + pixels, "a.pgm").height(), 2);
+  EXPECT_EQ(decodeImageBytes("P2\n3 2\n9\n1 2 3 4 5 6\n", "a.pgm").height(), 2);
+}
+
 TEST(ReadImage, AFileThatIsTooLargeForAnImageIsNotRead) {
   const testing::TempFolder folder;
   const std::filesystem::path file = folder.write("large.png", "\x89PNG\r\n\x1a\n");

@@ -78,6 +78,19 @@ TEST(ReferenceComparison, ACycleWithoutAnUncertaintyNeitherAgreesNorDisagrees) {
   EXPECT_EQ(c.within_two_sigma, 1.0);
 }
 
+TEST(ReferenceComparison, ANegativeUncertaintyIsRefused) {
+  CycleEvaluation evaluation;
+  evaluation.names = {"EXX_um_per_m"};
+  const testing::TempFolder folder;
+  const auto file = folder.write("reference.csv", "time_s,value,sigma\n0,0,0.5\n100,1,-0.5\n");
+  try {
+    (void)compareWithReference(evaluation, "EXX_um_per_m", file);
+    ADD_FAILURE() << "accepted";
+  } catch (const InputError& e) {
+    EXPECT_THAT(e.what(), HasSubstr("-0.5; allowed: 0 or more"));
+  }
+}
+
 TEST(ReferenceComparison, SlopeAndItsUncertaintyAreTrue) {
   double sum = 0.0, squares = 0.0;
   constexpr int runs = 300;

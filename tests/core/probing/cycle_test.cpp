@@ -276,6 +276,29 @@ TEST(HoleCycle, SwappedAndWrongFeaturesAreTold) {
   }
 }
 
+/// Another work offset, the artefact clamped anew: the cycle is left out with its reason, the others are evaluated.
+TEST_P(CycleKind, ACycleThatIsShiftedAsAWholeIsLeftOut) {
+  const MachineDescription m = machine();
+  for (const double shift_mm : {1.05, 1.2, 20.0}) {
+    VirtualRun run = runCycles(m, 4, {}, 71);
+    for (Touch& t : run.list.touches)
+      if (t.cycle == "M2") t.position_mm.x() += shift_mm;
+    const CycleEvaluation evaluation = evaluate(m, run.list);
+    EXPECT_EQ(evaluation.rejected.size(), run.list.touches.size() / 4);
+    for (const RejectedTouch& r : evaluation.rejected) EXPECT_EQ(run.list.touches[r.touch].cycle, "M2");
+    EXPECT_EQ(evaluation.fit.cycles[2].touches_used, 0);
+    EXPECT_THAT(evaluation.fit.cycles[2].message, ::testing::HasSubstr("none of its touches is left"));
+    for (const std::size_t k : {1U, 3U}) {
+      for (std::size_t p = 0; p < evaluation.names.size(); ++p) {
+        const CycleParameter& q = evaluation.parameters[k][p];
+        EXPECT_TRUE(q.determined);
+        EXPECT_FALSE(evaluation.parameters[2][p].determined);
+        EXPECT_LT(std::abs(q.value - run.truth[k][p]), 4.5 * q.standard_uncertainty) << evaluation.names[p];
+      }
+    }
+  }
+}
+
 TEST(BallCycle, DistancesAgreeWithTheCertificate) {
   const MachineDescription m = machineFrom(ballMachineText());
   VirtualProbeOptions options;

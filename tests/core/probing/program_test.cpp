@@ -8,6 +8,7 @@
 #include <array>
 #include <map>
 
+#include "core/probing/checked_program.h"
 #include "core/probing/cycle_studies.h"
 #include "core/probing/printed_text.h"
 #include "core/probing/probe_health.h"
@@ -224,6 +225,37 @@ TEST(CyclePlan, AFeedThatBreaksTheProbeIsRefused) {
   EXPECT_NO_THROW(CyclePlanOptions{}.validate());
 }
 
+/// The tip stands 60 mm below the spindle reference: no deeper than that goes the spindle into the bar.
+TEST(CycleProgram, TheSpindleStaysAboveTheBar) {
+  MachineDescription m = machineFrom(holeMachineText());
+  const Artefact& artefact = m.artefacts.front();
+  CyclePlanOptions deep;
+  deep.depth_mm = 55.0;
+  EXPECT_TRUE(makeCheckedProgram(m, artefact, deep, {}).check.good());
+  deep.depth_mm = 55.1;
+  try {
+    (void)planCycle(m, artefact, deep);
+    ADD_FAILURE() << "planned";
+  } catch (const InputError& e) {
+    EXPECT_NE(std::string(e.what()).find("55"), std::string::npos) << e.what();
+    EXPECT_NE(std::string(e.what()).find("p0"), std::string::npos) << e.what();
+  }
+  // The check knows it of itself: the same programme for a shorter stylus, the positions those of the tip.
+  deep.depth_mm = 50.0;
+  const CyclePlan plan = planCycle(m, artefact, deep);
+  m.styli.front().offset_mm.z() = -40.0;
+  const std::string text = writeProgram(plan, m, artefact, deep);
+  const ProgramCheck check = checkProgram(text, m, artefact);
+  ASSERT_FALSE(check.good());
+  EXPECT_NE(check.issues.front().what.find("spindle reference"), std::string::npos) << check.issues.front().what;
+  // A shaft that leans from the spindle into the hole runs into its rim.
+  MachineDescription leaning = machineFrom(holeMachineText());
+  leaning.styli.front().offset_mm = Eigen::Vector3d(40.0, 0.0, -60.0);
+  CyclePlanOptions usual;
+  usual.depth_mm = 20.0;
+  EXPECT_FALSE(makeCheckedProgram(leaning, leaning.artefacts.front(), usual, {}).check.good());
+}
+
 TEST(CycleProgram, TravelIsChecked) {
   const MachineDescription small =
       machineFrom(withReplaced(holeMachineText(), "\"travel_mm\":[0,520]", "\"travel_mm\":[0,380]"));
@@ -317,6 +349,20 @@ TEST(PrintedText, BadTemplatesAndLinesAreTold) {
   EXPECT_THROW((void)read("{feature} {x} {y} {z} {nx} {ny} {nz}", "H1 1 2 abc 1 0 0\n"), InputError);
   EXPECT_THROW((void)read("{feature} {x} {y} {z} {nx} {ny} {nz}", "H1 1 2 3 0 0 0\n"), InputError);
   EXPECT_EQ(read("{feature} {x} {y} {z} {nx} {ny} {nz}", "H1 1 2 3 1 0 0\n").touches.touches.size(), 1U);
+}
+
+TEST(PrintedText, TheSignOfTheTableIsASign) {
+  const MachineDescription m = machineFrom(holeMachineText());
+  const auto angle = [&](const std::string& sign) {
+    const JsonNode pattern =
+        JsonNode::parse(R"({"format":"spindrift-printed-text","version":1,"artefact":"bar","c_sign":)" + sign +
+                            R"(,"touch_line":"{feature} {c_deg} {x} {y} {z} {nx} {ny} {nz}"})",
+                        "t.json");
+    return readPrintedText("H1 90 1 2 3 1 0 0\n", "p.txt", pattern, m).touches.touches.front().c_deg;
+  };
+  EXPECT_EQ(angle("1"), 90.0);
+  EXPECT_EQ(angle("-1"), -90.0);
+  for (const char* bad : {"2", "0", "-0.5"}) EXPECT_THROW((void)angle(bad), InputError) << bad;
 }
 
 TEST(StarStylus, ClosedFormsGiveARotationBack) {

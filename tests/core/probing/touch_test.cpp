@@ -59,6 +59,7 @@ TEST_F(TouchFile, BadRowsGiveOneClearSentence) {
             std::string::npos);
   EXPECT_NE(complaint("0,M0,bar,H1,p0,0,0,nan,2,3,1,0,0\n").find("x_mm"), std::string::npos);
   EXPECT_NE(complaint("0,M0,bar,H1,p0,0,1.5,1,2,3,1,0,0\n").find("1.5"), std::string::npos);
+  EXPECT_NE(complaint("0,M0,bar,H1,p0,1e300,0,1,2,3,1,0,0\n").find("-36000 to 36000"), std::string::npos);
   EXPECT_NE(complaint("").find("no touches"), std::string::npos);
 }
 

@@ -106,6 +106,7 @@ std::span<const char* const> spindrift::gui::core_formats::imaging() noexcept {
     QT_TRANSLATE_NOOP("core", "the image has {} x {} pixels, the others {} x {}."),
     QT_TRANSLATE_NOOP("core", "the image is black: 99.5 % of its pixels are at or below level {:.0f} of 255"),
     QT_TRANSLATE_NOOP("core", "the image is blurred: its sharpest edges have a blur of about {:.0f} px, at most about 3 px can be decoded"),
+    QT_TRANSLATE_NOOP("core", "the image is cut short: it has {} bytes, {:.0f} x {:.0f} pixels need {:.0f}; copy it again."),
     QT_TRANSLATE_NOOP("core", "the image is damaged and cannot be read."),
     QT_TRANSLATE_NOOP("core", "the image is the same as {}."),
     QT_TRANSLATE_NOOP("core", "the image is white: 95 % of its pixels are at or above level {:.0f} of 255"),
