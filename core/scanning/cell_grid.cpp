@@ -11,6 +11,7 @@
 
 #include "core/base/error.h"
 #include "core/math/statistics.h"
+#include "core/scanning/robust_box.h"
 
 namespace spindrift {
 namespace {
@@ -238,9 +239,14 @@ CellGrid compressCloud(const PointCloud& cloud, const CellGridOptions& options) 
   const ProfileCharacter character = characterIfProfiles(cloud, spacing);
   grid.size = options.cell_mm.minCoeff() > 0.0 ? options.cell_mm : suitableCell_mm(cloud, spacing, character);
   if (!(grid.size.minCoeff() > 0.0)) throw InputError(fmt::format("{} has no extent in x or y.", cloud.name));
-  Eigen::Vector2d low = cloud.points_mm.front().head<2>();
-  Eigen::Vector2d high = low;
+  const RobustBox plausible = plausibleBox(cloud);
+  Eigen::Vector2d low = Eigen::Vector2d::Constant(std::numeric_limits<double>::infinity());
+  Eigen::Vector2d high = -low;
   for (const Eigen::Vector3d& p : cloud.points_mm) {
+    if (!isInside(plausible, p)) {
+      ++grid.stray_points;
+      continue;
+    }
     low = low.cwiseMin(p.head<2>());
     high = high.cwiseMax(p.head<2>());
   }
@@ -263,6 +269,7 @@ CellGrid compressCloud(const PointCloud& cloud, const CellGridOptions& options) 
     row = static_cast<int>((p.y() - grid.low.y()) * inverse.y());
   };
   for (const Eigen::Vector3d& p : cloud.points_mm) {
+    if (!isInside(plausible, p)) continue;
     int column = 0, row = 0;
     place(p, column, row);
     const double u = p.x() - (grid.low.x() + (column + 0.5) * grid.size.x());
@@ -303,6 +310,7 @@ CellGrid compressCloud(const PointCloud& cloud, const CellGridOptions& options) 
   if (!suspects.empty()) {
     std::vector<std::vector<Eigen::Vector3d>> points(suspects.size());
     for (const Eigen::Vector3d& p : cloud.points_mm) {
+      if (!isInside(plausible, p)) continue;
       int column = 0, row = 0;
       place(p, column, row);
       const std::int32_t s = slot[static_cast<std::size_t>(row) * static_cast<std::size_t>(grid.columns) +

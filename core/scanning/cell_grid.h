@@ -35,7 +35,8 @@ struct CellGrid {
   std::vector<SurfaceCell> cells;  ///< row major
   std::size_t point_count = 0;     ///< points used
   std::size_t rejected_points = 0;
-  double noise_mm = 0.0;  ///< typical standard deviation of a point about the plane of its cell
+  std::size_t stray_points = 0;  ///< of those: far outside the scan in x or y
+  double noise_mm = 0.0;         ///< typical standard deviation of a point about the plane of its cell
   Eigen::Vector3d centroid_mm = Eigen::Vector3d::Zero();  ///< of the points used
 
   [[nodiscard]] const SurfaceCell& at(int column, int row) const {

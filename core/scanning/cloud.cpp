@@ -8,32 +8,10 @@
 
 #include "core/base/error.h"
 #include "core/math/statistics.h"
+#include "core/scanning/robust_box.h"
 
 namespace spindrift {
 namespace {
-
-struct RobustBox {
-  Eigen::Vector3d low = Eigen::Vector3d::Zero();
-  Eigen::Vector3d high = Eigen::Vector3d::Zero();
-};
-
-/// The box of the middle 98 % of about 20,000 points per coordinate: gross outliers do not count.
-RobustBox robustExtent(const PointCloud& cloud) {
-  const std::size_t step = std::max<std::size_t>(1, cloud.size() / 20000);
-  RobustBox extent;
-  for (int axis = 0; axis < 3; ++axis) {
-    std::vector<double> values;
-    for (std::size_t i = 0; i < cloud.size(); i += step) values.push_back(cloud.points_mm[i][axis]);
-    const auto at = [&](double p) {
-      const auto k = static_cast<std::ptrdiff_t>(p * static_cast<double>(values.size() - 1));
-      std::nth_element(values.begin(), values.begin() + k, values.end());
-      return values[static_cast<std::size_t>(k)];
-    };
-    extent.low[axis] = at(0.01);
-    extent.high[axis] = at(0.99);
-  }
-  return extent;
-}
 
 std::string label(const PointCloud& cloud) {
   return cloud.name.empty() ? "The cloud" : cloud.name;

@@ -7,6 +7,7 @@
 #include "core/base/error.h"
 #include "core/math/statistics.h"
 #include "core/scanning/cloud.h"
+#include "core/scanning/robust_box.h"
 
 namespace spindrift {
 namespace {
@@ -86,17 +87,25 @@ std::size_t dropOutliers(const PointCloud& cloud, const CloudFilterOptions& opti
                           ? options.cell_mm
                           : std::max(std::sqrt(60.0 * spacing.along_profile_mm * spacing.between_profiles_mm), 1e-6);
   double x_low = 1e300, x_high = -1e300, y_low = 1e300, y_high = -1e300;
+  const RobustBox plausible = plausibleBox(cloud);
+  std::size_t stray = 0;
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     if (keep[i] == 0) continue;
+    if (!isInside(plausible, cloud.points_mm[i])) {
+      keep[i] = 0;
+      ++stray;
+      continue;
+    }
     x_low = std::min(x_low, cloud.points_mm[i].x());
     x_high = std::max(x_high, cloud.points_mm[i].x());
     y_low = std::min(y_low, cloud.points_mm[i].y());
     y_high = std::max(y_high, cloud.points_mm[i].y());
   }
-  if (x_high < x_low) return 0;
+  if (x_high < x_low) return stray;
   const auto columns = static_cast<std::size_t>(std::min((x_high - x_low) / cell, 20000.0)) + 1;
   const auto rows = static_cast<std::size_t>(std::min((y_high - y_low) / cell, 20000.0)) + 1;
-  if (columns * rows > 50 * cloud.size() + 1000) return 0;  // a cloud that is no height map: nothing local to compare
+  if (columns * rows > 50 * cloud.size() + 1000)
+    return stray;  // a cloud that is no height map: nothing local to compare
   // Points sorted by cell (counting sort).
   const auto cellOf = [&](const Eigen::Vector3d& p) {
     const auto c = std::min(static_cast<std::size_t>((p.x() - x_low) / cell), columns - 1);
@@ -146,9 +155,9 @@ std::size_t dropOutliers(const PointCloud& cloud, const CloudFilterOptions& opti
           static_cast<float>(std::abs(points[k].z() - plane.dot(Eigen::Vector3d(1.0, points[k].x(), points[k].y()))));
     spread.push_back(scale);
   }
-  if (spread.empty()) return 0;
+  if (spread.empty()) return stray;
   const double typical = median(spread);
-  std::size_t dropped = 0;
+  std::size_t dropped = stray;
   std::size_t s = 0;
   for (std::size_t c = 0; c + 1 < start.size(); ++c) {
     // A cell may be rougher than most (curvature, a rim): its own spread counts up to three times the typical one.

@@ -190,8 +190,10 @@ RegistrationResult registerWithPcl(const PointCloud& source, const PointCloud& t
       std::vector<CellResidual> residuals;
       solver.residuals(motion, solver.allCells(), residuals);
       Matrix6 normal = Matrix6::Zero();
+      Vector6 gradient = Vector6::Zero();
       double squares = 0.0;
       for (const CellResidual& r : residuals) {
+        gradient += r.weight * r.residual * r.jacobian;
         normal += r.weight * r.jacobian * r.jacobian.transpose();
         squares += r.weight * r.residual * r.residual;
       }
@@ -200,6 +202,9 @@ RegistrationResult registerWithPcl(const PointCloud& source, const PointCloud& t
         const double variance = squares / static_cast<double>(residuals.size() - 6);
         result.covariance = variance * ldlt.solve(Matrix6::Identity());
         result.white_covariance = result.covariance;
+        // PCL stops short of the minimum, by what the next step of this fit would be.
+        const Vector6 short_by = ldlt.solve(gradient);
+        result.covariance += short_by * short_by.transpose();
       }
     } catch (const InputError&) {
       // A free-form cloud: no uncertainty is stated.

@@ -13,6 +13,7 @@
 #include <limits>
 #include <optional>
 
+#include "core/base/count_text.h"
 #include "core/base/job_context.h"
 #include "core/base/text.h"
 #include "core/scanning/pcl_bridge.h"
@@ -299,6 +300,10 @@ RegistrationResult registerCells(const PointCloud& source, const CellGrid& grid,
     result.message = fmt::format("The surface leaves {} free: {}.",
                                  o.free_count == 1 ? "one direction" : fmt::format("{} directions", o.free_count),
                                  joinedList(result.free_directions));
+  }
+  if (grid.stray_points > 0) {
+    if (!result.message.empty()) result.message += " ";
+    result.message += fmt::format("{} far outside the scan left out.", countOf(grid.stray_points, "point"));
   }
   result.elapsed_ms = millisecondsSince(begin);
   return result;

@@ -130,12 +130,17 @@ nlohmann::json VirtualCaptures::truth() const {
   if (profiler_) {
     for (std::size_t a = 0; a < profiler_->artefacts.size(); ++a) {
       const VirtualArtefact& artefact = profiler_->artefacts[a];
-      Eigen::Vector3d at = profiler_->artefact_at_mm.front();
-      at.y() = profiler_->mounting.scan_model == "rigid" ? artefact.y_mm : profiler_->artefact_at_mm[a].y();
+      Eigen::Vector3d at = profiler_->artefact_at_mm[a];
+      // A rigid scan is carried as a whole by the error where it starts; the values are those of the centroid.
+      Eigen::Vector3d to_centroid = Eigen::Vector3d::Zero();
+      if (profiler_->mounting.scan_model == "rigid") {
+        to_centroid.y() = at.y() - artefact.y_mm;
+        at.y() = artefact.y_mm;
+      }
       SmallError cold;
       for (std::size_t k = 0; k < profiler_->times_s.size(); ++k) {
         const double time_s = profiler_->times_s[k] + static_cast<double>(a) * profiler_->seconds_per_artefact;
-        const SmallError now = deviation(time_s, at, {});
+        const SmallError now = deviation(time_s, at, {}).at(to_centroid);
         if (k == 0) cold = now;
         addTruth(list, fmt::format("C{}", k), artefact.id, now - cold, true);
       }

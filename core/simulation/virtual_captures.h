@@ -27,8 +27,8 @@ class VirtualCaptures {
   void write(const std::filesystem::path& folder, nlohmann::json& machine, JobContext& job) const;
 
   /// What the captures should lead to: [{"state","point","component","value"}], deviation from the first state (um; for
-  /// surfaces urad too). EX and EY hold when the plane of the point is
-  /// captured, EZ when its height is.
+  /// surfaces urad too). EX and EY hold when the plane of the point is captured, EZ when its height is; those of a
+  /// surface at its centroid (rigid: by the error of the carriage where the scan starts).
   [[nodiscard]] nlohmann::json truth() const;
 
   [[nodiscard]] std::size_t images() const;

@@ -5595,10 +5595,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Maßstab {}</translation>
     </message>
     <message>
-        <source>scan {} as {}, starting at {:g} mm</source>
-        <translation>{} als {} scannen, beginnend bei {:g} mm</translation>
-    </message>
-    <message>
         <source>scanning artefacts</source>
         <translation>Prüfkörper werden gescannt</translation>
     </message>
@@ -9907,6 +9903,18 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>none of its touches is left, so nothing is determined:</source>
         <translation>keine ihrer Antastungen ist übrig, also ist nichts bestimmt:</translation>
+    </message>
+    <message>
+        <source>{} far outside the scan left out.</source>
+        <translation>{} weit außerhalb des Scans weggelassen.</translation>
+    </message>
+    <message>
+        <source>1 point</source>
+        <translation>1 Punkt</translation>
+    </message>
+    <message>
+        <source>scan {} as {}, starting at {:g} mm</source>
+        <translation type="unfinished"></translation>
     </message>
 </context>
 <context>

@@ -319,6 +319,33 @@ TEST(Registration, OutliersDoNotMatter) {
   EXPECT_LT(errorOf(r, small_motion).head<3>().norm(), 3e-4);
 }
 
+/// A code for "no value", a reflection far away: the height map of the others is what it was.
+TEST(Registration, StrayPointsAreLeftOutAndCounted) {
+  for (const double far_mm : {400.0, 1e5, 1e6, -1e30}) {
+    Random random(19);
+    PointCloud target = scan(paperSurface, RigidTransform(), {}, 0.5e-3, random);
+    PointCloud source = scan(paperSurface, small_motion, {}, 0.5e-3, random);
+    const RegistrationResult clean = registerClouds(source, target);
+    for (PointCloud* cloud : {&source, &target}) {
+      PointCloud& c = *cloud;
+      const Eigen::Vector3d kept = c.points_mm[7];
+      for (const int axis : {0, 1}) {
+        c.points_mm[7] = kept;
+        c.points_mm[7](axis) = far_mm;
+        const RegistrationResult r = registerClouds(source, target);
+        ASSERT_EQ(r.status, FitStatus::Converged) << r.message;
+        EXPECT_EQ(r.method, clean.method);
+        EXPECT_LT((r.translation_mm - clean.translation_mm).norm(), 2e-5);
+        EXPECT_LT((errorOf(r, small_motion).array() / r.covariance.diagonal().array().sqrt()).abs().maxCoeff(), 4.0);
+        if (cloud == &source) {
+          EXPECT_NE(r.message.find("1 point far outside"), std::string::npos) << r.message;
+        }
+      }
+      c.points_mm[7] = kept;
+    }
+  }
+}
+
 TEST(Registration, UnorderedPointsAreAHeightMapToo) {
   Random random(20);
   PointCloud target = scan(paperSurface, RigidTransform(), {}, 0.5e-3, random);
@@ -343,6 +370,8 @@ TEST(Registration, GicpOfPclIsThereAsReference) {
   const RegistrationResult r = registerClouds(source, target, options);
   EXPECT_EQ(r.method, "gicp");
   EXPECT_LT(errorOf(r, small_motion).head<3>().norm(), 0.1);
+  // It stops micrometres short of the minimum, and says so.
+  EXPECT_LT((errorOf(r, small_motion).array() / r.covariance.diagonal().array().sqrt()).abs().maxCoeff(), 4.0);
   options.scan_model = ScanModel::PushBroom;
   EXPECT_THROW(static_cast<void>(registerClouds(source, target, options)), InputError);
 }

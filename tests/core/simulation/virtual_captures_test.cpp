@@ -11,6 +11,7 @@
 #include "core/base/error.h"
 #include "core/imaging/evaluate_fiducials.h"
 #include "core/machine/campaign.h"
+#include "core/scanning/evaluate_scans.h"
 #include "core/scanning/scan_evaluation.h"
 #include "core/simulation/virtual_campaign.h"
 #include "tests/support/temp_folder.h"
@@ -66,6 +67,34 @@ TEST(VirtualCaptures, ImagesLeadBackToTheHiddenDeviation) {
   }
   EXPECT_EQ(compared, 6);
   EXPECT_GT(largest, 5.0) << "the machine has to be bent for this to mean anything";
+}
+
+/// The truth of a scan is what its evaluation should say: at the centroid of the surface, however the scans are made.
+TEST(VirtualCaptures, ScansLeadBackToTheHiddenDeviation) {
+  for (const char* model : {"rigid", "push_broom"}) {
+    nlohmann::json json = scenarioJson("scans");
+    json["machine"]["profiler"]["scan_model"] = model;
+    const VirtualCampaign made = simulateCampaign(parsed(json), std::nullopt, {});
+    const testing::TempFolder folder;
+    writeCampaign(made, folder / "campaign");
+    JobContext job;
+    const InstrumentEvaluation evaluation = evaluateScans(Campaign::read(folder / "campaign"), "", job);
+    std::map<std::tuple<std::string, std::string, std::string>, double> truth;
+    const nlohmann::json hidden = truthJson(made).at("captures");
+    for (const auto& row : hidden) truth[{row["state"], row["point"], row["component"]}] = row["value"];
+    int compared = 0;
+    double largest_tilt = 0.0;
+    for (const Observation& o : evaluation.observations.rows) {
+      const double expected = truth.at({o.state, o.point, std::string(toString(o.component))});
+      EXPECT_NEAR(o.value, expected, 5.0 * o.sigma) << model << " " << o.state << o.point << toString(o.component);
+      if (o.component == Component::EA) largest_tilt = std::max(largest_tilt, std::abs(expected));
+      ++compared;
+    }
+    EXPECT_GT(compared, 10);
+    if (std::string(model) == "rigid") {
+      EXPECT_GT(largest_tilt, 1.0) << "20 mm of lever have to show";
+    }
+  }
 }
 
 TEST(VirtualCaptures, ACancelledCampaignLeavesNothingBehind) {

@@ -166,6 +166,7 @@ std::span<const char* const> spindrift::gui::core_formats::scanning() noexcept {
     QT_TRANSLATE_NOOP("core", "{:.0f} % of the surface does not agree with the reference (something lay in the way?) and was left out."),
     QT_TRANSLATE_NOOP("core", "{} cannot be determined under the scan model {} ({}): {:.1f} mrad is what the mounting is assumed to have, with a standard uncertainty of {:.1f} mrad that dx, dy carry along. "),
     QT_TRANSLATE_NOOP("core", "{} directions"),
+    QT_TRANSLATE_NOOP("core", "{} far outside the scan left out."),
     QT_TRANSLATE_NOOP("core", "{} gives {} entries for {} FIELDS."),
     QT_TRANSLATE_NOOP("core", "{} has no extent in x and y: all points lie at one place."),
     QT_TRANSLATE_NOOP("core", "{} has no extent in x or y."),

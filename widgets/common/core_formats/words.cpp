@@ -24,6 +24,7 @@ std::span<const char* const> spindrift::gui::core_formats::words() noexcept {
     QT_TRANSLATE_NOOP("core", "1 observation"),
     QT_TRANSLATE_NOOP("core", "1 picture"),
     QT_TRANSLATE_NOOP("core", "1 planned item"),
+    QT_TRANSLATE_NOOP("core", "1 point"),
     QT_TRANSLATE_NOOP("core", "1 point is"),
     QT_TRANSLATE_NOOP("core", "1 result"),
     QT_TRANSLATE_NOOP("core", "1 series"),
