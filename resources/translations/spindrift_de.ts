@@ -9914,7 +9914,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>scan {} as {}, starting at {:g} mm</source>
-        <translation type="unfinished"></translation>
+        <translation>{} als {} scannen, beginnend bei {:g} mm</translation>
     </message>
 </context>
 <context>
