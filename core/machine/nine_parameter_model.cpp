@@ -335,14 +335,19 @@ StateDifferences differencesFromReference(const ObservationSet& set, const std::
     change.warnings.push_back(fmt::format(
         "{} is the reference state: its values are zero up to an unknown constant, not deviations.", change.state));
   }
-  // A reading approached from another side, or with another tool, is another measurand.
-  using Key = std::tuple<std::string, Component, double, std::array<double, 6>>;
-  const auto keyOf = [](const Observation& o) {
-    return Key(o.point, o.component, o.c_deg,
-               {o.approach.x(), o.approach.y(), o.approach.z(), o.tool_offset_mm.x(), o.tool_offset_mm.y(),
-                o.tool_offset_mm.z()});
+  using Key = std::tuple<std::string, Component, double>;
+  const auto keyOf = [](const Observation& o) { return Key(o.point, o.component, o.c_deg); };
+  std::map<Key, std::vector<std::size_t>> of_point;
+  // A reading approached from another side, or with another tool, is another measurand: backlash is no change. Where
+  // the reference has none from the same side, those from the others stand for it.
+  const auto referencesOf = [&](const Observation& o) {
+    const std::vector<std::size_t>& all = of_point[keyOf(o)];
+    std::vector<std::size_t> alike;
+    for (const std::size_t r : all) {
+      if (set.rows[r].approach == o.approach && set.rows[r].tool_offset_mm == o.tool_offset_mm) alike.push_back(r);
+    }
+    return alike.empty() ? all : alike;
   };
-  std::map<Key, std::vector<std::size_t>> reference_rows;
   std::vector<std::size_t> in_state;
   bool rotations = false;
   for (std::size_t i = 0; i < set.rows.size(); ++i) {
@@ -352,7 +357,7 @@ StateDifferences differencesFromReference(const ObservationSet& set, const std::
       rotations = rotations || inState(o);
       continue;
     }
-    if (relative && o.state == change.reference) reference_rows[keyOf(o)].push_back(i);
+    if (relative && o.state == change.reference) of_point[keyOf(o)].push_back(i);
     if (inState(o)) in_state.push_back(i);
   }
   if (rotations) {
@@ -360,7 +365,7 @@ StateDifferences differencesFromReference(const ObservationSet& set, const std::
   }
   std::vector<std::string> without_reference;
   for (const std::size_t i : in_state) {
-    if (relative && !reference_rows.contains(keyOf(set.rows[i]))) {
+    if (relative && !of_point.contains(keyOf(set.rows[i]))) {
       without_reference.push_back(fmt::format("{} of {}", toString(set.rows[i].component), set.rows[i].point));
     } else {
       change.rows.push_back(i);
@@ -378,7 +383,7 @@ StateDifferences differencesFromReference(const ObservationSet& set, const std::
   for (const std::size_t i : change.rows) {
     columnOf(i);
     if (relative) {
-      for (const std::size_t r : reference_rows[keyOf(set.rows[i])]) columnOf(r);
+      for (const std::size_t r : referencesOf(set.rows[i])) columnOf(r);
     }
   }
   const auto size = static_cast<Eigen::Index>(column.size());
@@ -397,7 +402,7 @@ StateDifferences differencesFromReference(const ObservationSet& set, const std::
     const auto row = static_cast<Eigen::Index>(k);
     B(row, column[change.rows[k]]) = 1.0;
     if (!relative) continue;
-    const std::vector<std::size_t>& references = reference_rows[keyOf(set.rows[change.rows[k]])];
+    const std::vector<std::size_t> references = referencesOf(set.rows[change.rows[k]]);
     double total = 0.0;
     for (const std::size_t r : references) total += 1.0 / (set.rows[r].sigma * set.rows[r].sigma);
     for (const std::size_t r : references) B(row, column[r]) -= 1.0 / (set.rows[r].sigma * set.rows[r].sigma) / total;

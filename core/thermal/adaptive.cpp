@@ -135,7 +135,6 @@ class Replay {
     update.offset_tau_s = 8.0 * 3600.0;
     update.gain_sigma = 0.1;
     update.gain_drift_per_sqrt_h = 0.02;
-    update.zero_known = true;  // the record goes on that the model was identified from
     return GainOffsetFilter(update);
   }
 

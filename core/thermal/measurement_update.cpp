@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "core/base/error.h"
 #include "core/math/statistics.h"
@@ -21,7 +20,7 @@ void UpdateOptions::validate() const {
 }
 
 GainOffsetFilter::GainOffsetFilter(const UpdateOptions& options) : options_(options) {
-  const auto size = static_cast<Eigen::Index>(2 + options.context.size() + (options.zero_known ? 0 : 1));
+  const auto size = static_cast<Eigen::Index>(2 + options.context.size());
   options_.context.clear();  // only the number matters here
   state_ = Eigen::VectorXd::Zero(size);
   state_[0] = 1.0;
@@ -29,15 +28,13 @@ GainOffsetFilter::GainOffsetFilter(const UpdateOptions& options) : options_(opti
   covariance_.diagonal().setConstant(options.context_sigma * options.context_sigma);
   covariance_(0, 0) = options.gain_sigma * options.gain_sigma;
   covariance_(1, 1) = options.offset_sigma * options.offset_sigma;
-  // Nothing is known of zero before the first measurement: see `measure`.
-  if (!options.zero_known) covariance_(size - 1, size - 1) = 0.0;
 }
 
 Eigen::VectorXd GainOffsetFilter::row(double simulated, std::span<const double> context) const {
-  const auto known = static_cast<Eigen::Index>(context.size()) + 2;
-  SPINDRIFT_ASSERT(known + (options_.zero_known ? 0 : 1) == state_.size(), "context signals differ in number");
-  Eigen::VectorXd h = Eigen::VectorXd::Ones(state_.size());
+  SPINDRIFT_ASSERT(static_cast<Eigen::Index>(context.size()) + 2 == state_.size(), "context signals differ in number");
+  Eigen::VectorXd h(state_.size());
   h[0] = simulated;
+  h[1] = 1.0;
   for (std::size_t i = 0; i < context.size(); ++i) h[static_cast<Eigen::Index>(i + 2)] = simulated * context[i];
   return h;
 }
@@ -57,18 +54,6 @@ void GainOffsetFilter::advance(double dt_s) {
 
 bool GainOffsetFilter::measure(double measured, double simulated, std::span<const double> context, double model_sigma) {
   const Eigen::VectorXd h = row(simulated, context);
-  if (!begun_ && !options_.zero_known) {
-    // The limit of an ever wider prior: zero takes up all of the first measurement, with the uncertainty of that and of
-    // what the other unknowns make of it; they learn nothing yet.
-    const Eigen::VectorXd ph = covariance_ * h;
-    const Eigen::Index zero = state_.size() - 1;
-    state_[zero] = measured - h.dot(state_);
-    covariance_.row(zero) = -ph.transpose();
-    covariance_.col(zero) = -ph;
-    covariance_(zero, zero) = h.dot(ph) + options_.measurement_sigma * options_.measurement_sigma;
-    begun_ = true;
-    return true;
-  }
   const double known = h.dot(covariance_ * h) + options_.measurement_sigma * options_.measurement_sigma;
   const double off = measured - h.dot(state_);
   const bool wild = begun_ && std::abs(off) > options_.gate_sigma * std::sqrt(known + model_sigma * model_sigma);
@@ -112,72 +97,66 @@ void GainOffsetFilter::restore(const Eigen::VectorXd& state, const Eigen::Matrix
   refused_by_ = 0.0;
 }
 
-std::size_t zeroRow(std::span<const double> time_s, std::span<const double> measured, double start_s) {
-  SPINDRIFT_ASSERT(time_s.size() == measured.size(), "series differ in length");
-  std::size_t row = 0;
-  while (row < time_s.size() && (time_s[row] < start_s || !std::isfinite(measured[row]))) ++row;
-  return row;
-}
-
 UpdateRun runWithUpdates(std::span<const double> time_s, std::span<const double> measured,
                          std::span<const double> simulated, const UpdateOptions& options) {
   options.validate();
   SPINDRIFT_ASSERT(time_s.size() == measured.size() && time_s.size() == simulated.size(), "series differ in length");
-  for (const auto& signal : options.context)
-    SPINDRIFT_ASSERT(signal.size() == time_s.size(), "a context signal differs in length");
-  constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
-  const bool kalman = options.kind == UpdateKind::Kalman;
   UpdateRun run;
   run.predicted.assign(simulated.begin(), simulated.end());
-  if (kalman) run.sigma.assign(simulated.size(), nothing);
-  const std::size_t zero = zeroRow(time_s, measured, options.start_s);
-  if (zero == time_s.size()) return run;
-  const double zero_measured = measured[zero];
-  const double zero_simulated = simulated[zero];
-  for (double& v : run.predicted) v += zero_measured - zero_simulated;
-  if (options.kind == UpdateKind::None) return run;
-  UpdateOptions of_filter = options;
-  of_filter.zero_known = false;
-  GainOffsetFilter filter(of_filter);
+  const bool kalman = options.kind == UpdateKind::Kalman;
+  if (kalman) run.sigma.assign(simulated.size(), 0.0);
+  for (const auto& signal : options.context)
+    SPINDRIFT_ASSERT(signal.size() == time_s.size(), "a context signal differs in length");
+  GainOffsetFilter filter(options);
   std::vector<double> context(options.context.size());
   double next = options.start_s;
+  double zero_measured = 0.0;
+  double zero_simulated = 0.0;
+  bool have_zero = false;
   double gain = 1.0;
   double correction = 0.0;
   double corrected_at = options.start_s;
-  for (std::size_t i = zero; i < time_s.size(); ++i) {
+  double last_time = time_s.empty() ? 0.0 : time_s.front();
+  for (std::size_t i = 0; i < time_s.size(); ++i) {
+    if (kalman) filter.advance(time_s[i] - last_time);
     for (std::size_t c = 0; c < context.size(); ++c) context[c] = options.context[c][i];
-    if (i > zero) {
-      if (kalman) {
-        filter.advance(time_s[i] - time_s[i - 1]);
-        run.predicted[i] = filter.value(simulated[i], context);
-        run.sigma[i] = filter.sigma(simulated[i], context);
-      } else if (options.kind == UpdateKind::Arx) {
-        run.predicted[i] += correction * std::exp(-(time_s[i] - corrected_at) / options.slowest_tau_s);
-      } else {
-        run.predicted[i] = zero_measured + gain * (simulated[i] - zero_simulated);
-      }
-    }
-    if (time_s[i] < next || !std::isfinite(measured[i])) continue;
+    last_time = time_s[i];
+    const double before =
+        options.kind == UpdateKind::Gain ? zero_measured + gain * (simulated[i] - zero_simulated)
+        : options.kind == UpdateKind::Arx
+            ? simulated[i] + correction * std::exp(-(time_s[i] - corrected_at) / options.slowest_tau_s)
+        : kalman ? filter.value(simulated[i] - zero_simulated, context) + zero_simulated
+                 : simulated[i];
+    run.predicted[i] = options.kind == UpdateKind::Gain && !have_zero ? simulated[i] : before;
+    if (kalman) run.sigma[i] = filter.sigma(simulated[i] - zero_simulated, context);
+    if (options.kind == UpdateKind::None || time_s[i] < next || !std::isfinite(measured[i])) continue;
     // The row of the measurement itself shows the prediction before it: nothing is judged with its own measurement.
     while (next <= time_s[i]) next += options.interval_s;
     UpdateEvent event;
     event.time_s = time_s[i];
     event.measured = measured[i];
-    event.predicted_before = i > zero ? run.predicted[i] : nothing;
+    event.predicted_before = run.predicted[i];
     if (options.kind == UpdateKind::Gain) {
-      const double s = simulated[i] - zero_simulated;
-      if (i == zero || s == 0.0 || std::abs(s) < options.smallest_simulated) {
+      if (!have_zero) {
+        zero_measured = measured[i];
+        zero_simulated = simulated[i];
+        have_zero = true;
         event.used = false;
       } else {
-        gain = std::clamp((measured[i] - zero_measured) / s, -options.gain_bound, options.gain_bound);
+        const double s = simulated[i] - zero_simulated;
+        if (s == 0.0 || std::abs(s) < options.smallest_simulated) {
+          event.used = false;
+        } else {
+          gain = std::clamp((measured[i] - zero_measured) / s, -options.gain_bound, options.gain_bound);
+        }
       }
       event.gain = gain;
     } else if (options.kind == UpdateKind::Arx) {
-      correction = (measured[i] - zero_measured) - (simulated[i] - zero_simulated);
+      correction = measured[i] - simulated[i];
       corrected_at = time_s[i];
       event.offset = correction;
     } else {
-      event.used = filter.measure(measured[i], simulated[i], context);
+      event.used = filter.measure(measured[i] - zero_simulated, simulated[i] - zero_simulated, context);
       event.gain = filter.gain();
       event.offset = filter.offset();
       event.gain_sigma = filter.gainSigma();
@@ -192,7 +171,6 @@ std::vector<IntervalPoint> sweepIntervals(std::span<const double> time_s, std::s
                                           std::span<const double> simulated, const UpdateOptions& options,
                                           const std::vector<double>& intervals_s) {
   std::vector<IntervalPoint> out;
-  const std::size_t zero = zeroRow(time_s, measured, options.start_s);
   for (std::size_t k = 0; k <= intervals_s.size(); ++k) {
     UpdateOptions trial = options;
     IntervalPoint point;
@@ -206,8 +184,8 @@ std::vector<IntervalPoint> sweepIntervals(std::span<const double> time_s, std::s
     std::vector<double> m;
     std::vector<double> s;
     std::vector<double> d;
-    for (std::size_t i = zero + 1; i < time_s.size(); ++i) {
-      if (!std::isfinite(measured[i])) continue;
+    for (std::size_t i = 0; i < time_s.size(); ++i) {
+      if (time_s[i] < options.start_s || !std::isfinite(measured[i])) continue;
       m.push_back(measured[i]);
       s.push_back(run.predicted[i]);
       d.push_back(measured[i] - run.predicted[i]);

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Keeping a model true with sparse on-machine measurements.
 //
-// A reading is defined up to a constant: what a probe or a gauge calls zero is not what the model was trained with. So
-// the first measurement of every kind defines zero, and nothing is predicted before it. (A filter that goes on in the
-// record that its model was identified from knows the constant: `zero_known`.)
 //   gain    P2 (7)-(8): gain = measured / simulated at each measurement, both relative to the first measurement.
 //   Explodes when the
 //           simulation is near zero: `gain_bound` limits the ratio (infinite: as printed), measurements with
@@ -11,16 +8,15 @@
 //   arx     state update (TALC): the simulated state is set to the measurement; what was corrected fades with the
 //   model's slowest
 //           time constant, as it does in an ARX model that goes on in free run.
-//   kalman  deviation = zero + gain * simulated + offset; gain and offset drift as random walks (gain towards nothing,
-//           offset with the memory of the model's remainder), zero is a constant of which nothing is known before the
-//           first measurement (exact diffuse prior) and which carries that measurement's uncertainty from then on;
-//           Kalman filter with the measurement's uncertainty. Gives a standard uncertainty at every time after the
-//           first measurement. With `context` signals c_i (the height of the spindle, say) the gain is gain + sum g_i
-//           c_i with constant g_i learned from the measurements, so that what was learned at one height holds when it
-//           is left. A measurement further from the prediction than `gate_sigma` standard uncertainties of their
-//           difference is refused: a chip under the probe says nothing of the machine. A second one in a row on the
-//           same side is believed: then it is the machine, and the offset has jumped by what it is off. The first of
-//           all is taken as it is.
+//   kalman  deviation = gain * simulated + offset; both drift as random walks (gain towards nothing, offset with the
+//   memory of the
+//           model's remainder); Kalman filter with the measurement's uncertainty. Gives a standard uncertainty at every
+//           time. With `context` signals c_i (the height of the spindle, say) the gain is gain + sum g_i c_i with
+//           constant g_i learned from the measurements, so that what was learned at one height holds when it is left.
+//           A measurement further from the prediction than `gate_sigma` standard uncertainties of their difference is
+//           refused: a chip under the probe says nothing of the machine. A second one in a row on the same side is
+//           believed: then it is the machine, and the offset has jumped by what it is off. The first of all is taken as
+//           it is, it defines zero.
 // Units: those of the output; time s. A prediction between two measurements only uses measurements before it.
 // Source: P2 section 4, P1 section 4 (state update), Kalman 1960.
 #pragma once
@@ -38,7 +34,7 @@ enum class UpdateKind { None, Gain, Arx, Kalman };
 struct UpdateOptions {
   UpdateKind kind = UpdateKind::Kalman;
   double interval_s = 3600.0;      ///< > 0: measurements at start + k * interval
-  double start_s = 0.0;            ///< first measurement of the cycle; it also defines zero
+  double start_s = 0.0;            ///< first measurement of the cycle; it also defines zero for `gain`
   double measurement_sigma = 0.5;  ///< of one on-machine measurement
   double gain_bound = std::numeric_limits<double>::infinity();
   double smallest_simulated = 0.0;
@@ -51,8 +47,6 @@ struct UpdateOptions {
   std::vector<std::vector<double>> context;
   double context_sigma = 0.5;  ///< kalman: of each g_i before the first measurement
   double gate_sigma = 5.0;     ///< kalman: beyond it a single measurement is refused
-  /// GainOffsetFilter: measured and simulated have the same zero, and the filter has no constant.
-  bool zero_known = false;
 
   /// Throws InputError.
   void validate() const;
@@ -61,7 +55,7 @@ struct UpdateOptions {
 struct UpdateEvent {
   double time_s = 0.0;
   double measured = 0.0;
-  double predicted_before = 0.0;  ///< by the model as it was before this measurement; NaN of that which defines zero
+  double predicted_before = 0.0;  ///< by the model as it was before this measurement
   double gain = 1.0;
   double offset = 0.0;
   double gain_sigma = 0.0;  ///< kalman only
@@ -70,22 +64,16 @@ struct UpdateEvent {
 };
 
 struct UpdateRun {
-  /// Per row. Up to and with the measurement that defines zero: the free run on that zero, no prediction.
-  std::vector<double> predicted;
-  std::vector<double> sigma;  ///< kalman: standard uncertainty per row, NaN where nothing is predicted; else empty
+  std::vector<double> predicted;  ///< per row
+  std::vector<double> sigma;      ///< kalman: standard uncertainty per row, else empty
   std::vector<UpdateEvent> events;
 };
 
-/// The row whose measurement defines zero: the first with a value at or after `start_s`; time_s.size() if there is
-/// none.
-[[nodiscard]] std::size_t zeroRow(std::span<const double> time_s, std::span<const double> measured, double start_s);
-
 /// `measured` may be NaN where nothing was measured; a measurement is the first row at or after its time with a value.
-/// `UpdateKind::None` is the free run on the zero of the first measurement; `zero_known` has no meaning here.
 [[nodiscard]] UpdateRun runWithUpdates(std::span<const double> time_s, std::span<const double> measured,
                                        std::span<const double> simulated, const UpdateOptions& options);
 
-/// One point of P2 Fig. 9, of the rows after the one that defines zero.
+/// One point of P2 Fig. 9.
 struct IntervalPoint {
   double interval_s = 0.0;  ///< infinite: without update
   double fit_percent = 0.0;
@@ -114,14 +102,14 @@ class GainOffsetFilter {
   [[nodiscard]] double gainSigma() const;
   [[nodiscard]] double offsetSigma() const;
 
-  /// (gain, offset, g_1, ..., zero unless it is known) and its covariance, to go on from after a restart.
+  /// (gain, offset, g_1, ...) and its covariance, to go on from after a restart.
   [[nodiscard]] const Eigen::VectorXd& state() const noexcept { return state_; }
   [[nodiscard]] const Eigen::MatrixXd& covariance() const noexcept { return covariance_; }
   /// Throws InputError: another size, not finite.
   void restore(const Eigen::VectorXd& state, const Eigen::MatrixXd& covariance);
 
  private:
-  /// What the state (gain, offset, g_1, ..., zero unless it is known) is multiplied with.
+  /// What the state (gain, offset, g_1, ...) is multiplied with.
   [[nodiscard]] Eigen::VectorXd row(double simulated, std::span<const double> context) const;
 
   UpdateOptions options_;

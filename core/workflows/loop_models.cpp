@@ -234,7 +234,6 @@ LoopModels::Identified LoopModels::identifiedFrom(ThermalModel model, double lef
   update.offset_tau_s = 4.0 * 3600.0;
   update.gain_sigma = 0.1;
   update.gain_drift_per_sqrt_h = 0.02;
-  update.zero_known = true;  // the record goes on that the model was identified from
   Identified out{std::move(model), GainOffsetFilter(update), 0.0, {}, {}};
   out.refresh(series());
   out.told = out.features;

@@ -129,15 +129,7 @@ TrackResult trackThermalModel(const TimeSeries& all, const ThermalModel& model, 
   options.offset_sigma =
       std::max(2.0 * output->uncertainty_factor * output->noise_sigma, 4.0 * request.measurement_sigma);
   options.context = contextOf(series, request);
-  const std::size_t zero = zeroRow(result.time_s, result.measured, result.from_s);
-  if (zero == result.time_s.size())
-    throw InputError({request.log, ""},
-                     fmt::format("no value of {} is measured from {:.6g} s on.", result.output, result.from_s));
-  UpdateOptions free = options;
-  free.kind = UpdateKind::None;
-  std::vector<double> simulated = std::move(result.simulated);
-  result.simulated = runWithUpdates(result.time_s, result.measured, simulated, free).predicted;
-  result.run = runWithUpdates(result.time_s, result.measured, simulated, options);
+  result.run = runWithUpdates(result.time_s, result.measured, result.simulated, options);
   if (request.update == UpdateKind::Kalman) {
     const auto refused = [](const UpdateEvent& e) { return !e.used; };
     const auto first = std::find_if(result.run.events.begin(), result.run.events.end(), refused);
@@ -149,20 +141,20 @@ TrackResult trackThermalModel(const TimeSeries& all, const ThermalModel& model, 
                       std::count_if(first, result.run.events.end(), refused), result.run.events.size(),
                       options.gate_sigma, first->time_s, first->measured - first->predicted_before));
   }
-  // The row that defines zero is predicted by nothing.
-  const double judged_from_s = std::nextafter(result.time_s[zero], 1e300);
-  const TimeRange judged{judged_from_s, 1e300};
+  const TimeRange judged{result.from_s, 1e300};
   result.without = runQuality(result.time_s, result.measured, result.simulated, judged);
   result.with = runQuality(result.time_s, result.measured, result.run.predicted, judged);
+  if (result.with.samples == 0)
+    throw InputError({request.log, ""},
+                     fmt::format("no value of {} is measured from {:.6g} s on.", result.output, result.from_s));
   job.throwIfCancelled();
   for (double t = result.from_s; t < series.time_s.back(); t += request.interval_s) {
     const TimeRange range{t, t + request.interval_s};
-    const RunQuality q = runQuality(result.time_s, result.measured, result.run.predicted,
-                                    {std::max(range.from_s, judged_from_s), range.to_s});
+    const RunQuality q = runQuality(result.time_s, result.measured, result.run.predicted, range);
     if (q.samples > 0) result.intervals.emplace_back(range, q);
     if (result.intervals.size() >= 10000) break;
   }
-  result.sweep = sweepIntervals(result.time_s, result.measured, simulated, options,
+  result.sweep = sweepIntervals(result.time_s, result.measured, result.simulated, options,
                                 {1800.0, 3600.0, 5400.0, 7200.0, 9000.0, 10800.0});
   if (request.update == UpdateKind::Gain && result.with.p2p > result.without.p2p) {
     result.notes.push_back(
@@ -202,7 +194,7 @@ nlohmann::json TrackResult::json() const {
   for (const UpdateEvent& e : run.events) {
     out["updates"].push_back({{"time_s", e.time_s},
                               {"measured", e.measured},
-                              {"predicted_before", jsonNumber(e.predicted_before)},
+                              {"predicted_before", e.predicted_before},
                               {"gain", e.gain},
                               {"offset", e.offset},
                               {"gain_standard_uncertainty", e.gain_sigma},
@@ -275,7 +267,7 @@ void TrackResult::writePrediction(const std::filesystem::path& file) const {
   for (std::size_t r = 0; r < time_s.size(); ++r) {
     text += exactNumber(time_s[r]) + ',' + (std::isfinite(measured[r]) ? exactNumber(measured[r]) : std::string()) +
             ',' + exactNumber(simulated[r]) + ',' + exactNumber(run.predicted[r]) + ',' +
-            (r < run.sigma.size() && std::isfinite(run.sigma[r]) ? exactNumber(run.sigma[r]) : std::string()) + '\n';
+            (r < run.sigma.size() ? exactNumber(run.sigma[r]) : std::string()) + '\n';
   }
   writeFileAtomically(file, text);
 }

@@ -23,8 +23,7 @@ struct TrackRequest {
   std::string output;  ///< empty: the model's first
   UpdateKind update = UpdateKind::Kalman;
   double interval_s = 3600.0;
-  std::optional<double>
-      from_s;  ///< first measurement, which defines zero; default: end of training if the log goes on, else its start
+  std::optional<double> from_s;  ///< first measurement; default: end of training if the log goes on, else its start
   double measurement_sigma = 0.5;
   double gain_bound = 0.0;  ///< 0: as printed in P2, without a bound
   /// kalman: columns that the gain may depend on, such as pos_z_mm (height of the spindle); scaled by their range.
@@ -35,14 +34,14 @@ struct TrackResult {
   std::string output;
   std::string unit;
   double from_s = 0.0;
-  RunQuality without;  ///< free run; both of the rows after the one that defines zero
+  RunQuality without;  ///< free run
   RunQuality with;     ///< with updates
   UpdateRun run;
   std::vector<std::pair<TimeRange, RunQuality>> intervals;
   std::vector<IntervalPoint> sweep;  ///< 30 ... 180 min, P2 Fig. 9
   std::vector<double> time_s;
   std::vector<double> measured;
-  std::vector<double> simulated;  ///< free run on the zero of the first measurement
+  std::vector<double> simulated;
   std::vector<std::string> notes;
 
   [[nodiscard]] nlohmann::json json() const;
