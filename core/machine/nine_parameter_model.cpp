@@ -341,12 +341,12 @@ StateDifferences differencesFromReference(const ObservationSet& set, const std::
   // A reading approached from another side, or with another tool, is another measurand: backlash is no change. Where
   // the reference has none from the same side, those from the others stand for it.
   const auto referencesOf = [&](const Observation& o) {
-    const std::vector<std::size_t>& all = of_point[keyOf(o)];
+    const std::vector<std::size_t>& there = of_point[keyOf(o)];
     std::vector<std::size_t> alike;
-    for (const std::size_t r : all) {
+    for (const std::size_t r : there) {
       if (set.rows[r].approach == o.approach && set.rows[r].tool_offset_mm == o.tool_offset_mm) alike.push_back(r);
     }
-    return alike.empty() ? all : alike;
+    return alike.empty() ? there : alike;
   };
   std::vector<std::size_t> in_state;
   bool rotations = false;
