@@ -401,8 +401,7 @@ PosteriorSearch::State PosteriorSearch::stateOf(const std::vector<ModelTerm>& te
   State out;
   out.fit = rounds > 0 ? search_->refine(terms, rounds) : search_->solve(terms);
   out.evidence = evidenceOf(out.fit);
-  // What a refined fit cannot be is tried without what makes it so: without heat at the start where something would
-  // have been warmer than it can be, through one lag where two would cancel.
+  // What a refined fit cannot be is tried without what makes it so: heat at the start that is more than there can be.
   bool simpler = false;
   std::vector<ModelTerm> rest = out.fit.terms;
   for (std::size_t t = 0; t < terms.size(); ++t) {
@@ -411,8 +410,6 @@ PosteriorSearch::State PosteriorSearch::stateOf(const std::vector<ModelTerm>& te
     if (warmStart(rest[t].variant)) {
       rest[t].variant.inputs.pop_back();
       rest[t].variant.shared_lag = rest[t].variant.inputs.size() > 1;
-    } else if (throughTwoLags(rest[t].variant)) {
-      rest[t] = throughOneLag(out.fit, t);
     } else {
       continue;
     }
@@ -446,8 +443,7 @@ PosteriorSearch::State PosteriorSearch::withFewerLags(State state, int rounds) c
     std::vector<ModelTerm> terms = state.fit.terms;
     terms[t] = throughOneLag(state.fit, t);
     State simple = stateOf(terms, rounds);
-    // The second lag was chosen as well, beside its gain.
-    if (simple.evidence >= state.evidence - search_->logN()) state = std::move(simple);
+    if (simple.evidence >= state.evidence) state = std::move(simple);
   }
   return state;
 }

@@ -54,6 +54,10 @@ class DriftFinder {
   [[nodiscard]] std::vector<Eigen::MatrixXd> drifts(const CycleFitResult& fit) const {
     std::vector<Eigen::MatrixXd> found;
     for (int k = 0; k < problem_.cycles; ++k) {
+      if (rows_[static_cast<std::size_t>(k)].empty()) {
+        found.push_back(Eigen::MatrixXd(0, 0));  // no touch of the cycle is left
+        continue;
+      }
       const Eigen::MatrixXd effects = effectsOf(fit, k, changeInside(fit, k));
       const Eigen::JacobiSVD<Eigen::MatrixXd> svd(effects, Eigen::ComputeThinU);
       Eigen::Index rank = 0;
@@ -140,6 +144,7 @@ class DriftFinder {
     for (std::size_t i = 0; i < problem_.priors.size(); ++i) {
       A.row(m + static_cast<Eigen::Index>(i)) = problem_.priors[i].row / problem_.priors[i].sigma;
     }
+    if (A.rows() == 0) return;  // as the fit without drift has it
     normaliseColumns(A);
     const Eigen::JacobiSVD<Eigen::MatrixXd> svd(A, Eigen::ComputeThinU | Eigen::ComputeFullV);
     const auto& s = svd.singularValues();

@@ -356,7 +356,6 @@ TEST_F(Thermal, CompensationIsJudgedOnRowsThatTrainedNothing) {
   const Outcome outcome = runCli({"thermal", "compensate", log.string(), "--model", model, "--json", "-"});
   const nlohmann::json output = outcome.json().at("outputs").at(0);
   ASSERT_LT(output.at("unseen").at("reduction_percent").get<double>(), 0.0);
-  ASSERT_GT(output.at("reduction_percent").get<double>(), 0.0);
   EXPECT_EQ(outcome.status, 1);
 }
 
