@@ -313,24 +313,26 @@ TEST_F(LanguageTest, ListsWithinSentencesAreTranslatedToTheirLastWord) {
             "Temperatur spindle um 22,2 K, Temperatur housing um 13,9 K und Temperatur Ständer vorn um 4,2 K");
   const QString german = coreSentence(
       "The thermal drift of the machine and a drift of the instrument cannot be separated here, because it was at work "
-      "(spindle speed, feed X and feed Y), temperature of spindle by 22.2 K, temperature of housing by 13.9 K and "
-      "temperature "
-      "of column front by 4.2 K changed; measure one point of the machine at rest again and again, or state that the "
+      "(spindle speed, feed X and feed Y) and temperatures changed (temperature of spindle by 22.2 K, temperature of "
+      "housing by 13.9 K and temperature of column front by 4.2 K); measure one point of the machine at rest again and "
+      "again, or state that the "
       "instrument was warm.");
   for (const char* english : {" by ", "changed", " and ", "feed", "work"})
     EXPECT_FALSE(german.contains(QLatin1String(english))) << english << " in: " << german.toStdString();
   // The page says it behind what was found of the drift.
   EXPECT_EQ(
-      coreSentence("Not known yet: drift of more than 1 µm/h is possible: EY -0.5 ± 0.5 µm/h; measure longer. The "
-                   "thermal drift of the machine and a drift of the instrument cannot be separated here, because it "
-                   "was at work (spindle speed), temperature of spindle by 8.8 K, temperature of housing by 6.0 K "
-                   "and temperature of column front by 2.4 K changed; measure one point of the machine at rest "
-                   "again and again, or state that the instrument was warm.")
+      coreSentence(
+          "Not known yet: drift of more than 1 µm/h is possible: EY -0.5 ± 0.5 µm/h; measure longer. The "
+          "thermal drift of the machine and a drift of the instrument cannot be separated here, because it "
+          "was at work (spindle speed) and temperatures changed (temperature of spindle by 8.8 K, temperature "
+          "of housing by 6.0 K and temperature of column front by 2.4 K); measure one point of the machine at rest "
+          "again and again, or state that the instrument was warm.")
           .toStdString(),
       "Noch nicht bekannt: Drift von mehr als 1 µm/h ist möglich: EY −0,5 ± 0,5 µm/h; länger messen. Die "
       "thermische Drift der Maschine und eine Drift des Messgeräts sind hier nicht trennbar, weil sie in Betrieb war "
-      "(Spindeldrehzahl), Temperatur spindle um 8,8 K, Temperatur housing um 6,0 K und Temperatur Ständer vorn um "
-      "2,4 K sich änderte; einen Punkt der ruhenden Maschine immer wieder messen oder erklären, dass das Messgerät "
+      "(Spindeldrehzahl) und sich Temperaturen änderten (Temperatur spindle um 8,8 K, Temperatur housing um 6,0 K und "
+      "Temperatur Ständer vorn um 2,4 K); einen Punkt der ruhenden Maschine immer wieder messen oder erklären, dass "
+      "das Messgerät "
       "warm war.");
 }
 
