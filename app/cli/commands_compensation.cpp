@@ -118,9 +118,9 @@ void addCompensationCommands(CLI::App& app, CommandLine& line) {
       ->type_name("ID");
   command->add_option("--positions", a->request.positions, "Positions along each axis, 2 to 51")->capture_default_str();
   command
-      ->add_option(
-          "--reference", a->reference,
-          "Position through which the lines of the component tables pass, in mm; default: the middle of the travels, or the measured position next to it")
+      ->add_option("--reference", a->reference,
+                   "Position through which the lines of the component tables pass, in mm; default: the middle of the "
+                   "travels, or the measured position next to it")
       ->type_name("X,Y,Z");
   command
       ->add_option("--out", a->out,

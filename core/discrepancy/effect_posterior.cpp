@@ -401,22 +401,18 @@ PosteriorSearch::State PosteriorSearch::stateOf(const std::vector<ModelTerm>& te
   State out;
   out.fit = rounds > 0 ? search_->refine(terms, rounds) : search_->solve(terms);
   out.evidence = evidenceOf(out.fit);
-  // What a refined fit cannot be is tried without what makes it so: heat at the start that is more than there can be.
-  bool simpler = false;
-  std::vector<ModelTerm> rest = out.fit.terms;
+  bool cold = false;  // something would have been warmer at the start than it can be: then it was not
+  std::vector<ModelTerm> without_start = out.fit.terms;
   for (std::size_t t = 0; t < terms.size(); ++t) {
     if (search_->admissible(out.fit.terms[t], out.fit.gains[t])) continue;
     out.evidence -= inadmissible_price;
-    if (warmStart(rest[t].variant)) {
-      rest[t].variant.inputs.pop_back();
-      rest[t].variant.shared_lag = rest[t].variant.inputs.size() > 1;
-    } else {
-      continue;
-    }
-    simpler = true;
+    if (!warmStart(without_start[t].variant)) continue;
+    without_start[t].variant.inputs.pop_back();
+    without_start[t].variant.shared_lag = without_start[t].variant.inputs.size() > 1;
+    cold = true;
   }
-  if (simpler) {
-    State again = stateOf(rest, rounds);
+  if (cold) {
+    State again = stateOf(without_start, rounds);
     if (again.evidence > out.evidence) return again;
   }
   return rounds > 1 ? withFewerLags(std::move(out), rounds) : out;

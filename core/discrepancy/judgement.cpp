@@ -315,7 +315,7 @@ std::string patternInScatter(const ResidualProblem& problem, const JointFit& fit
       power += std::pow(left[unit] / problem.sigma[unit], 2);
       row.try_emplace(problem.series[u], static_cast<Index>(row.size()));
       column.try_emplace(problem.epoch[u], static_cast<Index>(column.size()));
-      sizes.push_back(std::abs(left[static_cast<Index>(u)]));
+      sizes.push_back(std::abs(left[unit]));
     }
     const auto points = static_cast<Index>(row.size());
     const auto states = static_cast<Index>(column.size());
@@ -330,7 +330,7 @@ std::string patternInScatter(const ResidualProblem& problem, const JointFit& fit
     }
     moved.colwise() -= moved.rowwise().mean().eval();
     const Eigen::VectorXd singular = Eigen::BDCSVD<Eigen::MatrixXd>(moved).singularValues();
-    const auto readings = static_cast<double>(points * states);
+    const auto readings = static_cast<double>(sizes.size());
     const double all = singular.squaredNorm();
     const double beside = all - singular[0] * singular[0];
     const double evidence = readings * std::log(all / std::max(1e-12 * all, beside)) -

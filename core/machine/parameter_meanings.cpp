@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/machine/parameter_meanings.h"
-#include "core/base/unit_text.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <vector>
+
+#include "core/base/unit_text.h"
 
 namespace spindrift {
 namespace {

@@ -97,11 +97,16 @@ TEST(Iso2303, SingleReadingsOfALongRecordAreQuick) {
       speed.push_back(k > rows / 4 && k < rows / 2 ? 1000.0 : 0.0);
       z.values.push_back(k % 3 == 0 ? std::nan("") : std::sin(k * 1e-3));
     }
-    const auto from = std::chrono::steady_clock::now();
-    (void)evaluateRotatingSpindle(time, speed, {z}, 0.9, 0.0);
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - from).count();
+    double quickest = 1e300;  // a machine that does something else meanwhile only makes it longer
+    for (int run = 0; run < 3; ++run) {
+      const auto from = std::chrono::steady_clock::now();
+      (void)evaluateRotatingSpindle(time, speed, {z}, 0.9, 0.0);
+      quickest = std::min(quickest, std::chrono::duration<double>(std::chrono::steady_clock::now() - from).count());
+    }
+    return quickest;
   };
-  EXPECT_LT(seconds(400000), 20.0 * std::max(seconds(40000), 0.005));
+  // Ten times the rows: some ten times as long in one run, a hundred times where each row asks every other.
+  EXPECT_LT(seconds(400000), 35.0 * std::max(seconds(40000), 0.005));
 }
 
 TEST(Iso2303, RotatingSpindleByHand) {
