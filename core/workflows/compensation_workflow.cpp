@@ -603,25 +603,29 @@ void CompensationRequest::validate() const {
   }
 }
 
+Eigen::Vector3d usualReference(const MachineDescription& machine, const ObservationSet& observations,
+                               const std::string& state) {
+  Eigen::AlignedBox3d measured;
+  for (const Observation& o : observations.rows) {
+    if (o.state == state && o.use != ObservationUse::Exclude) measured.extend(o.position_mm);
+  }
+  Eigen::Vector3d reference_mm = Eigen::Vector3d::Zero();
+  for (int i = 0; i < 3; ++i) {
+    const LinearAxis* axis = machine.findAxis(axis_names[static_cast<std::size_t>(i)]);
+    if (axis == nullptr) continue;
+    const double middle_mm = 0.5 * (axis->travel_mm[0] + axis->travel_mm[1]);
+    const double near_mm = measured.isEmpty() ? middle_mm : std::clamp(middle_mm, measured.min()[i], measured.max()[i]);
+    reference_mm[i] = std::clamp(near_mm, axis->travel_mm[0], axis->travel_mm[1]);
+  }
+  return reference_mm;
+}
+
 CompensationPlan planCompensation(const Campaign& campaign, const ObservationSet& observations,
                                   const CompensationRequest& request, JobContext& job) {
   request.validate();
   CompensationPlan plan;
   plan.state = chosenState(observations, request.state);
-  plan.reference_mm.setZero();
-  // The middle of the travels, or what was measured next to it: nothing is known of a height without a point.
-  Eigen::AlignedBox3d measured;
-  for (const Observation& o : observations.rows) {
-    if (o.state == plan.state && o.use != ObservationUse::Exclude) measured.extend(o.position_mm);
-  }
-  for (int i = 0; i < 3; ++i) {
-    if (const LinearAxis* axis = campaign.machine.findAxis(axis_names[static_cast<std::size_t>(i)])) {
-      const double middle_mm = 0.5 * (axis->travel_mm[0] + axis->travel_mm[1]);
-      plan.reference_mm[i] =
-          measured.isEmpty() ? middle_mm : std::clamp(middle_mm, measured.min()[i], measured.max()[i]);
-    }
-  }
-  if (request.reference_mm) plan.reference_mm = *request.reference_mm;
+  plan.reference_mm = request.reference_mm.value_or(usualReference(campaign.machine, observations, plan.state));
   JobContext fitting = job.part(0.0, 0.7);
   const PreparedModel prepared = request.source == CompensationSource::CompletedModel
                                      ? prepareCompleted(campaign, observations, request, plan, fitting)

@@ -33,7 +33,7 @@ struct CompensationRequest {
   std::vector<std::string> added;  ///< effects of the completed model, at least one
   std::vector<std::string> reject;
   int positions = 11;                           ///< along each axis, 2 to 51
-  std::optional<Eigen::Vector3d> reference_mm;  ///< where the component tables pass through; else the middle of travel
+  std::optional<Eigen::Vector3d> reference_mm;  ///< where the component tables pass through; else usualReference
   /// Which way a positive value of Fanuc pitch error data moves the axis, as tried; without it none are written.
   std::optional<FanucStep> fanuc_step;
   double fanuc_unit_um = 1.0;  ///< detection unit of the Fanuc control
@@ -94,6 +94,12 @@ struct CompensationPlan {
 /// The state whose displacements differ most (rms) from those of the first state, among the states with rows to fit; of
 /// one state alone, that. Empty without observations.
 [[nodiscard]] std::string warmestState(const ObservationSet& observations);
+
+/// The position (mm, MCF) through which the lines of component tables pass where none is asked for: the middle of the
+/// travels, or the position of the travels next to it within the box of the points that were measured in `state` (all
+/// but excluded): nothing is known of a height without a point. 0 along what is no axis of the machine.
+[[nodiscard]] Eigen::Vector3d usualReference(const MachineDescription& machine, const ObservationSet& observations,
+                                             const std::string& state);
 
 /// Throws InputError: nothing to fit, a state that does not exist, no effect added, parameters that the points do not
 /// determine.

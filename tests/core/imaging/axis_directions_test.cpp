@@ -67,7 +67,8 @@ TEST(AxisDirections, StatedUncertaintiesHold) {
   int pooled = 0;
   constexpr int campaigns = 500;
   for (int n = 0; n < campaigns; ++n) {
-    const AxisDirections result = fitAxisDirections(makeSets(random, {0.02, -0.01, 0.03, 0.0}, {0.1, 0.1, 0.1, 0.1}, 0.25));
+    const AxisDirections result =
+        fitAxisDirections(makeSets(random, {0.02, -0.01, 0.03, 0.0}, {0.1, 0.1, 0.1, 0.1}, 0.25));
     inside += std::abs(result.phi_rad - 0.1) < 1.96 * result.phi_sigma_rad ? 1 : 0;
     pooled += result.pooled ? 1 : 0;
   }

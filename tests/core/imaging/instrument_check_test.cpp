@@ -261,7 +261,7 @@ TEST(WarmUp, TellsTheInstrumentFromTheMachineOrSaysThatItCannot) {
     several.setSignal(name, {20.0, 20.0 + change, 20.0 + change});
   EXPECT_THAT(
       judgeWarmUp(drifting, "", {}, &several).cause_reason,
-      HasSubstr("temperatures changed (temperature of c by 9.0 K, temperature of d by 3.5 K and temperature of b "
+      HasSubstr("temperatures changed (temperature of C by 9.0 K, temperature of D by 3.5 K and temperature of B "
                 "by 2.5 K)"));
   OperatingLog temperatures_only({-600.0, 9000.0});
   temperatures_only.setSignal("T_column_degC", {20.0, 20.1});

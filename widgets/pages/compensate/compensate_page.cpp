@@ -250,13 +250,16 @@ void CompensatePage::fillChoices() {
   positions_->setValue(r.positions);
   fanuc_->setCurrentIndex(fanuc_->findData(r.fanuc_step ? static_cast<int>(*r.fanuc_step) : -1));
   const MachineDescription& machine = session().campaign()->machine;
+  const auto set = session().observations();
+  const ObservationSet nothing;
+  const Eigen::Vector3d reference_mm =
+      r.reference_mm.value_or(usualReference(machine, set ? *set : nothing, state_->currentText().toStdString()));
   for (std::size_t i = 0; i < 3; ++i) {
     const LinearAxis* axis = machine.findAxis(axis_words[i]);
     reference_[i]->setVisible(axis != nullptr);
     if (axis == nullptr) continue;
     reference_[i]->setRange(axis->travel_mm[0], axis->travel_mm[1]);
-    reference_[i]->setValue(r.reference_mm ? (*r.reference_mm)[static_cast<Eigen::Index>(i)]
-                                           : 0.5 * (axis->travel_mm[0] + axis->travel_mm[1]));
+    reference_[i]->setValue(reference_mm[static_cast<Eigen::Index>(i)]);
   }
 }
 

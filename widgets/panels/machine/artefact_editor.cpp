@@ -269,8 +269,8 @@ void ArtefactEditor::check() {
   }
   if (findings_.empty()) {
     verdict_->set(Tone::Neutral, machine_["artefacts"].empty()
-                                  ? tr("The machine has no artefact yet. A touch probe needs one and its styli.")
-                                  : QString());
+                                     ? tr("The machine has no artefact yet. A touch probe needs one and its styli.")
+                                     : QString());
     return;
   }
   QString sentence = coreSentence(findings_.front().sentence);
