@@ -24,9 +24,9 @@ std::size_t at(Index unit) {
   return static_cast<std::size_t>(unit);
 }
 
-/// The part of sorted sizes that lies more than `far_off` standard deviations of the others out, where half may lie out:
-/// the scatter of the others is taken from the smallest quarter of all, half of the better half. Normal readings alone
-/// bring 0.02, heavy tails less than 0.1.
+/// The part of sorted sizes that lies more than `far_off` standard deviations of the others out, where half may lie
+/// out: the scatter of the others is taken from the smallest quarter of all, half of the better half. Normal readings
+/// alone bring 0.02, heavy tails less than 0.1.
 double partFarOff(const std::vector<double>& sizes) {
   const double sigma = sizes[sizes.size() / 4] / normalQuantile(0.75);
   const auto beyond = sizes.end() - std::upper_bound(sizes.begin(), sizes.end(), far_off * sigma);
