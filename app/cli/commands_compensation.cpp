@@ -29,6 +29,11 @@ CommandResult runCompensate(const CompensationArguments& a, JobContext& job) {
   if (a.model == "completed") request.source = CompensationSource::CompletedModel;
   if (a.model == "higher-order") request.source = CompensationSource::HigherOrder;
   if (!a.fanuc.empty()) request.fanuc_step = a.fanuc == "positive" ? FanucStep::Positive : FanucStep::Negative;
+  if (!request.added.empty() && request.source != CompensationSource::CompletedModel) {
+    throw InputError(fmt::format(
+        "--accept {} completes the simulation, which --model {} does not use; allowed with --model completed.",
+        request.added.front(), a.model));
+  }
   request.fit.points = splitList(a.points);
   if (!a.reference.empty()) {
     const std::vector<std::string> parts = splitList(a.reference);

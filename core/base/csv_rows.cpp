@@ -174,6 +174,8 @@ void CsvRows::readHeader() {
     throw InputError(place(),
                      "the columns are separated by semicolons; allowed: commas, and numbers with a decimal point.");
   }
+  if (fields_.size() == 1 && fields_[0].find('\t') != std::string_view::npos)
+    throw InputError(place(), "the columns are separated by tabs; allowed: commas.");
   for (const std::string_view field : fields_) {
     if (field.empty()) throw InputError(place(), "a column has no name; allowed: one name per column.");
     if (std::find(names_.begin(), names_.end(), field) != names_.end()) {

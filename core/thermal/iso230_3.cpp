@@ -114,8 +114,14 @@ Range rangeOf(const std::vector<Level>& levels) {
   return {high->value - low->value, low->variance + high->variance};
 }
 
-void checkWindow(double window_s) {
-  if (!(window_s >= 0.0)) throw InputError("the window of a level must not be negative; allowed: 0 s or more.");
+/// A level over more than half of the record tells nothing of what changed in it; the usual window is taken of any.
+void checkWindow(double window_s, std::span<const double> time_s) {
+  const double longest_s =
+      std::max(level_window_s, time_s.empty() ? 0.0 : std::floor(0.5 * (time_s.back() - time_s.front())));
+  if (window_s >= 0.0 && window_s <= longest_s) return;
+  throw InputError(fmt::format(
+      "a level cannot be read over {:g} s of a record of {:g} s; allowed: 0 s to half of the record, {:g} s.", window_s,
+      time_s.empty() ? 0.0 : time_s.back() - time_s.front(), longest_s));
 }
 
 AxisPositionResult evaluatePosition(const std::vector<AxisReading>& readings, double position) {
@@ -254,7 +260,7 @@ std::string requireOneSpeedStep(const TimeSeries& series, const std::string& col
 EtveResult evaluateEtve(std::span<const double> time_s, const std::vector<ComponentSeries>& components,
                         std::span<const double> ambient, double window_s) {
   checkSeries(time_s, components, 10);
-  checkWindow(window_s);
+  checkWindow(window_s, time_s);
   EtveResult result;
   result.window_s = window_s;
   result.duration_s = time_s.back() - time_s.front();
@@ -318,7 +324,7 @@ SpindleResult evaluateRotatingSpindle(std::span<const double> time_s, std::span<
   SPINDRIFT_ASSERT(speed.size() == time_s.size(), "speed and time differ in length");
   if (!(fraction > 0.0 && fraction < 1.0)) throw InputError("the fraction of the end value must lie between 0 and 1.");
   checkSeries(time_s, components, 4);
-  checkWindow(window_s);
+  checkWindow(window_s, time_s);
   SpindleResult result;
   result.fraction = fraction;
   result.window_s = window_s;

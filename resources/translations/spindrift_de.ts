@@ -5895,10 +5895,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>die Uhr springt von {} auf {} zurück; zulässig: eine nie abnehmende Zeit (die Datei am Sprung teilen oder die Uhr ab hier berichtigen).</translation>
     </message>
     <message>
-        <source>the columns are separated by semicolons; allowed: commas, and numbers with a decimal point.</source>
-        <translation>die Spalten sind durch Semikolons getrennt; zulässig: Kommas und Zahlen mit Dezimalpunkt.</translation>
-    </message>
-    <message>
         <source>the compensation is at zero</source>
         <translation>die Kompensation ist null</translation>
     </message>
@@ -6665,10 +6661,6 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>the window</source>
         <translation>das Fenster</translation>
-    </message>
-    <message>
-        <source>the window of a level must not be negative; allowed: 0 s or more.</source>
-        <translation>das Fenster eines Niveaus darf nicht negativ sein; zulässig: 0 s oder mehr.</translation>
     </message>
     <message>
         <source>the window of the drift needs a part in (0, 1] and at least 3 measurements.</source>
@@ -9915,6 +9907,18 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>scan {} as {}, starting at {:g} mm</source>
         <translation>{} als {} scannen, beginnend bei {:g} mm</translation>
+    </message>
+    <message>
+        <source>a level cannot be read over {:g} s of a record of {:g} s; allowed: 0 s to half of the record, {:g} s.</source>
+        <translation>ein Niveau kann nicht über {:g} s einer Aufzeichnung von {:g} s gelesen werden; zulässig: 0 s bis zur halben Aufzeichnung, {:g} s.</translation>
+    </message>
+    <message>
+        <source>the columns are separated by semicolons; allowed: commas, and numbers with a decimal point.</source>
+        <translation>die Spalten sind durch Semikolons getrennt; zulässig: Kommas und Zahlen mit Dezimalpunkt.</translation>
+    </message>
+    <message>
+        <source>the columns are separated by tabs; allowed: commas.</source>
+        <translation>die Spalten sind durch Tabulatoren getrennt; zulässig: Kommas.</translation>
     </message>
 </context>
 <context>
@@ -21300,7 +21304,7 @@ einsatz</translation>
     </message>
     <message>
         <source>largest %1</source>
-        <translation>größter %1</translation>
+        <translation>größtes %1</translation>
     </message>
     <message>
         <source>rms %1</source>

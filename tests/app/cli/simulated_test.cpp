@@ -260,6 +260,8 @@ TEST_F(Simulated, CompensateWritesTheTablesOfACompletedModel) {
     EXPECT_NE(outcome.output.find(said), std::string::npos) << said;
   }
   expectBadInput({"compensate", campaign(), "--model", "completed"}, {"at least one effect"});
+  expectBadInput({"compensate", campaign(), "--accept", "column.bending.a"},
+                 {"--accept column.bending.a", "--model completed"});
   expectBadInput({"compensate", campaign(), "--reference", "1,2"}, {"--reference 1,2"});
   expectBadInput({"compensate", campaign(), "--state", "M99"}, {"M99"});
   expectBadInput({"compensate", campaign(), "--fanuc-unit", "0.1"}, {"--fanuc"});

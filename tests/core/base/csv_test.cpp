@@ -50,6 +50,7 @@ TEST(Csv, RefusesWhatIsNoTable) {
   EXPECT_THAT(complaint(""), HasSubstr("is empty"));
   EXPECT_THAT(complaint("# only a comment\n"), HasSubstr("is empty"));
   EXPECT_THAT(complaint("a;b\n1;2\n"), HasSubstr("separated by semicolons"));
+  EXPECT_THAT(complaint("a\tb\n1\t2\n"), HasSubstr("separated by tabs; allowed: commas"));
   EXPECT_THAT(complaint("a,a\n"), HasSubstr("appears twice"));
   EXPECT_THAT(complaint("a,,c\n"), HasSubstr("no name"));
   EXPECT_THAT(complaint(std::string("a,b\n1\0,2\n", 9)), HasSubstr("not a text file"));

@@ -185,7 +185,7 @@ class Soak {
       case 5:
         if (random_.index(8) != 0) break;
         spindrift_compensator_reset(compensator_);
-        std::fill(last_.begin(), last_.end(), 0.0);  // documented: all states are forgotten
+        // The outputs go on from where they are.
         std::fill(bad_for_s_.begin(), bad_for_s_.end(), 0.0);
         break;
       default:

@@ -188,6 +188,18 @@ TEST(Iso2303, MovingAxisByHand) {
   EXPECT_NEAR(r.expansion_over_time_um.back(), 8.0, 0.05);
 }
 
+TEST(Iso2303, ALevelOverTheWholeRecordIsRefused) {
+  std::vector<double> time;
+  for (int i = 0; i <= 100; ++i) time.push_back(60.0 * i);
+  const ComponentSeries ez{"EZ", "um", time, 0.1};
+  const std::vector<double> rpm(time.size(), 3000.0);
+  for (const double window_s : {3001.0, 1e9, std::nan(""), -1.0}) {
+    EXPECT_THROW(static_cast<void>(evaluateEtve(time, {ez}, rpm, window_s)), InputError) << window_s;
+    EXPECT_THROW(static_cast<void>(evaluateRotatingSpindle(time, rpm, {ez}, 0.9, window_s)), InputError) << window_s;
+  }
+  EXPECT_GT(evaluateEtve(time, {ez}, rpm, 3000.0).components[0].range, 0.0);
+}
+
 TEST(Iso2303, RefusesTestsThatHoldNothing) {
   const std::vector<double> time = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10};
   const std::vector<double> still(11, 0.0);

@@ -52,6 +52,7 @@ std::span<const char* const> spindrift::gui::core_formats::base() noexcept {
     QT_TRANSLATE_NOOP("core", "text \"{}\" follows a closing quote; allowed: a comma."),
     QT_TRANSLATE_NOOP("core", "the byte 0x{:02X} is not UTF-8 (Latin-1, perhaps); allowed: CSV in UTF-8."),
     QT_TRANSLATE_NOOP("core", "the columns are separated by semicolons; allowed: commas, and numbers with a decimal point."),
+    QT_TRANSLATE_NOOP("core", "the columns are separated by tabs; allowed: commas."),
     QT_TRANSLATE_NOOP("core", "the field is empty; allowed: a name."),
     QT_TRANSLATE_NOOP("core", "the file has {} bytes; at most {} are allowed."),
     QT_TRANSLATE_NOOP("core", "true or false"),
