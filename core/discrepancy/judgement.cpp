@@ -13,6 +13,7 @@
 
 #include "core/base/text.h"
 #include "core/base/unit_text.h"
+#include "core/math/statistics.h"
 
 namespace spindrift {
 namespace {
@@ -303,6 +304,12 @@ std::string patternInScatter(const ResidualProblem& problem, const JointFit& fit
   constexpr double far_out = 5.0;            // robust standard deviations: one reading far out is no pattern
   Eigen::VectorXd left = problem.without(fit.contribution);
   left -= problem.nuisancePart(left).values;
+  // The constant of every series: its median, which one reading far out does not move.
+  for (int s = 0; s < problem.seriesCount(); ++s) {
+    const Index from = problem.series_begin[static_cast<std::size_t>(s)];
+    auto series = left.segment(from, problem.series_begin[static_cast<std::size_t>(s) + 1] - from);
+    series.array() -= median(std::vector<double>(series.begin(), series.end()));
+  }
   std::vector<std::string> parts;
   for (const Component c : all_components) {
     std::map<int, Index> row;

@@ -89,6 +89,24 @@ TEST(Discrepancy, APatternThatChangesFasterThanItIsMeasuredIsNoNoise) {
   EXPECT_EQ(run(std::move(noisy)).verdict, DiscrepancyVerdict::None);
 }
 
+TEST(Discrepancy, AReadingFarOutOfAPointThatStandsElsewhereIsNoPattern) {
+  // Every point has a constant of its own, large beside the noise; one reading of one of them is far out.
+  DiscrepancyInput input = campaign(Hidden::Nothing, 45);
+  bool struck = false;
+  std::map<std::string, double> constant;
+  Random random(45);
+  for (Observation& o : input.observations.rows) {
+    const auto [value, fresh] = constant.try_emplace(o.point, 0.0);
+    if (fresh) value->second = random.normal(0.0, 60.0 * o.sigma);
+    o.value += value->second;
+    if (struck || o.component != Component::EX) continue;
+    struck = true;
+    o.value -= 60.0 * o.sigma;
+  }
+  const DiscrepancyResult result = run(std::move(input));
+  EXPECT_EQ(result.verdict, DiscrepancyVerdict::None) << result.leftover;
+}
+
 TEST(Discrepancy, TenCandidatesAreWeighedAndWhatWasNotHeldOutHasNoNumber) {
   DiscrepancyInput input = campaign(Hidden::SpindleDrift, 1);
   EXPECT_EQ(run(input).candidates.size(), 10U);
