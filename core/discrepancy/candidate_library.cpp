@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/discrepancy/candidate_library.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
 #include <optional>
-#include <string>
 
 namespace spindrift {
 namespace {
@@ -106,15 +103,10 @@ CandidateLibrary::Entry CandidateLibrary::entryOf(const Effect& effect) const {
     response_index.emplace(key, index);
     return index;
   };
-  std::map<std::string, std::size_t> kinds;
   const auto addWay = [&](const EffectVariant& variant, std::vector<double> parameters,
                           const std::vector<Index>& which) {
     if (which.size() * static_cast<std::size_t>(k) > (effect.own ? most_columns : most_built_in_columns)) return;
-    std::string kind;
-    for (const EffectInput& input : variant.inputs)
-      kind += fmt::format("{}/{} ", input.driver, static_cast<int>(input.dynamics));
     Way way;
-    way.kind = kinds.try_emplace(kind, kinds.size()).first->second;
     way.variant = variant;
     way.parameters = std::move(parameters);
     for (const Index r : which) {
@@ -250,11 +242,6 @@ CandidateLibrary::Entry CandidateLibrary::entryOf(const Effect& effect) const {
   return entry;
 }
 
-bool throughTwoLags(const EffectVariant& variant) {
-  return variant.inputs.size() == 2 && !variant.shared_lag && variant.inputs[0].dynamics == Dynamics::Lag &&
-         variant.inputs[1].dynamics == Dynamics::Lag && variant.inputs[0].driver == variant.inputs[1].driver;
-}
-
 double CandidateLibrary::choicePrice(const Effect& effect) const {
   for (const Entry& entry : entries_) {
     if (entry.effect != &effect || entry.ways.empty()) continue;
@@ -283,14 +270,7 @@ std::optional<CandidateFit> CandidateLibrary::bestOf(const Entry& entry, const G
   }
   const double log_n = search_->logN();
   const double price = choicePrice(*entry.effect);
-  struct Weighed {
-    const Way* way;
-    GramGain gain;
-    double evidence;
-    std::vector<double> parameters;
-  };
-  std::vector<Weighed> weighed;
-  weighed.reserve(entry.ways.size());
+  std::optional<CandidateFit> best;
   Eigen::MatrixXd gram;
   std::array<double, most_columns> product{};
   std::array<double, most_columns> whole{};
@@ -324,59 +304,10 @@ std::optional<CandidateFit> CandidateLibrary::bestOf(const Entry& entry, const G
     const GramGain gain = gramGain(gram, product, whole);
     if (gain.rank == 0 || !std::isfinite(gain.delta)) continue;
     const double evidence = gain.delta - gain.rank * log_n - price - (warmStart(way.variant) ? warm_price : 0.0);
-    weighed.push_back({&way, gain, evidence, way.parameters});
-  }
-  // Strong effects lose between the lags of the grid more than others differ: the top of a parabola over ln tau.
-  std::map<std::size_t, std::vector<Weighed*>> one_lag;
-  for (Weighed& w : weighed) {
-    if (w.parameters.size() == 1 && w.parameters[0] > 0.0 && w.way->variant.inputs[0].dynamics == Dynamics::Lag)
-      one_lag[w.way->kind].push_back(&w);
-  }
-  for (const auto& [kind, lags] : one_lag) {
-    std::size_t top = 0;
-    for (std::size_t i = 1; i < lags.size(); ++i) {
-      if (lags[i]->evidence > lags[top]->evidence) top = i;
-    }
-    if (top == 0 || top + 1 >= lags.size()) continue;
-    const double x = std::log(lags[top]->parameters[0]);
-    const double left = std::log(lags[top - 1]->parameters[0]) - x;
-    const double right = std::log(lags[top + 1]->parameters[0]) - x;
-    const double fall_left = lags[top - 1]->evidence - lags[top]->evidence;
-    const double fall_right = lags[top + 1]->evidence - lags[top]->evidence;
-    // y = slope d + bend d^2 / 2 through the top and its neighbours.
-    const double bend = 2.0 * (fall_right / right - fall_left / left) / (right - left);
-    const double slope = fall_right / right - 0.5 * bend * right;
-    if (!(bend < 0.0)) continue;
-    lags[top]->parameters[0] = std::exp(x - slope / bend);
-    lags[top]->gain.delta += -0.5 * slope * slope / bend;
-    lags[top]->evidence += -0.5 * slope * slope / bend;
-  }
-  // The best that can be, and the best of each other kind but through two lags.
-  constexpr std::size_t most_other_ways = 4;
-  const auto worse = [](const Weighed& x, const Weighed& y) { return x.evidence < y.evidence; };
-  std::make_heap(weighed.begin(), weighed.end(), worse);
-  std::optional<CandidateFit> best;
-  std::vector<std::string> kinds;
-  while (!weighed.empty()) {
-    std::pop_heap(weighed.begin(), weighed.end(), worse);
-    const auto [way, gain, evidence, parameters] = std::move(weighed.back());
-    weighed.pop_back();
-    if (kinds.size() > most_other_ways) break;
-    // One power of a speed stands for all.
-    std::string kind;
-    for (const EffectInput& input : way->variant.inputs)
-      kind += fmt::format("{}/{} ", input.driver.substr(0, input.driver.find('^')), static_cast<int>(input.dynamics));
-    if (std::find(kinds.begin(), kinds.end(), kind) != kinds.end()) continue;
-    if (best && throughTwoLags(way->variant)) continue;
-    ModelTerm term{entry.effect, way->variant, parameters};
-    const auto m = static_cast<Index>(way->columns.size());
+    if (best && !(evidence > best->evidence)) continue;
+    ModelTerm term{entry.effect, way.variant, way.parameters};
     if (!search_->admissible(term, Eigen::Map<const Eigen::VectorXd>(gain.gain.data(), m))) continue;
-    kinds.push_back(std::move(kind));
-    if (best) {
-      best->other_ways.push_back(std::move(term));
-    } else {
-      best = CandidateFit{std::move(term), gain.delta, gain.rank, evidence, {}};
-    }
+    best = CandidateFit{std::move(term), gain.delta, gain.rank, evidence};
   }
   return best;
 }

@@ -44,11 +44,10 @@ std::string keyOf(const std::vector<ModelTerm>& terms) {
   return key;
 }
 
-/// Of the catalogue, and holds a simpler effect in a wider pattern, which follows part of much that it does not cause.
-/// One that holds another in the same pattern, driven in more ways, pays for the choice among these. Effects of the
-/// user's pay for their gains alone.
+/// Of the catalogue, and holds a simpler effect: a wide shape follows part of much that it does not cause. Effects of
+/// the user's pay for their gains alone.
 bool wide(const Effect& effect) {
-  return !effect.own && !effect.contains.empty() && effect.shape.size() > 1;
+  return !effect.own && !effect.contains.empty();
 }
 
 bool driverless(const Effect& effect) {
@@ -56,6 +55,12 @@ bool driverless(const Effect& effect) {
          std::all_of(effect.variants.begin(), effect.variants.end(), [](const EffectVariant& variant) {
            return variant.inputs[0].driver.empty() && variant.inputs[0].dynamics == Dynamics::Pulse;
          });
+}
+
+/// One driver, through two lags.
+bool throughTwoLags(const EffectVariant& variant) {
+  return variant.inputs.size() == 2 && !variant.shared_lag && variant.inputs[0].dynamics == Dynamics::Lag &&
+         variant.inputs[1].dynamics == Dynamics::Lag && variant.inputs[0].driver == variant.inputs[1].driver;
 }
 
 bool sameShape(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
@@ -413,22 +418,6 @@ PosteriorSearch::State PosteriorSearch::stateOf(const std::vector<ModelTerm>& te
   return rounds > 1 ? withFewerLags(std::move(out), rounds) : out;
 }
 
-PosteriorSearch::State PosteriorSearch::stateWith(const std::vector<ModelTerm>& terms, const CandidateFit& candidate,
-                                                  int rounds) const {
-  std::vector<ModelTerm> with = terms;
-  with.push_back(candidate.term);
-  State best = stateOf(with, rounds);
-  if (!throughTwoLags(best.fit.terms.back().variant) &&
-      search_->admissible(best.fit.terms.back(), best.fit.gains.back()))
-    return best;
-  for (const ModelTerm& other : candidate.other_ways) {
-    with.back() = other;
-    State again = stateOf(with, rounds);
-    if (again.evidence > best.evidence) best = std::move(again);
-  }
-  return best;
-}
-
 ModelTerm PosteriorSearch::throughOneLag(const JointFit& fit, std::size_t t) const {
   ModelTerm out = fit.terms[t];
   out.variant.inputs.pop_back();
@@ -474,7 +463,11 @@ std::vector<PosteriorSearch::State> PosteriorSearch::extend(const State& state, 
     tried.push_back(&c);
   }
   std::vector<State> out(tried.size());
-  parallelFor(tried.size(), job, [&](std::size_t i) { out[i] = stateWith(state.fit.terms, *tried[i], 1); });
+  parallelFor(tried.size(), job, [&](std::size_t i) {
+    std::vector<ModelTerm> terms = state.fit.terms;
+    terms.push_back(tried[i]->term);
+    out[i] = stateOf(terms, 1);
+  });
   return out;
 }
 
@@ -532,7 +525,11 @@ SlotEvidence PosteriorSearch::slotOf(const State& best, std::size_t t, const Job
     tried.push_back(&c);
   }
   std::vector<State> states(tried.size());
-  parallelFor(tried.size(), job, [&](std::size_t i) { states[i] = stateWith(others, *tried[i], 2); });
+  parallelFor(tried.size(), job, [&](std::size_t i) {
+    std::vector<ModelTerm> terms = others;
+    terms.push_back(tried[i]->term);
+    states[i] = stateOf(terms, 2);
+  });
   const auto rejected = [&](const std::string& id) {
     return std::find(options_->reject.begin(), options_->reject.end(), id) != options_->reject.end();
   };
@@ -657,7 +654,9 @@ EffectPosterior PosteriorSearch::run(const JobContext& job, const ModelTerm* off
       throw InputError(
           fmt::format("{} cannot be accepted: nothing in the log drives it, or these data do not show it.", id));
     }
-    start = stateWith(start.fit.terms, found.front(), 1);
+    std::vector<ModelTerm> terms = start.fit.terms;
+    terms.push_back(found.front().term);
+    start = stateOf(terms, 1);
   }
   visited.push_back(start);
   State best = start;
@@ -734,7 +733,9 @@ EffectPosterior PosteriorSearch::run(const JobContext& job, const ModelTerm* off
     }
     const std::vector<CandidateFit> found = library_->sweep(given(best.fit), skip, job);
     if (found.empty()) continue;
-    visited.push_back(stateWith(best.fit.terms, found.front(), 1));
+    std::vector<ModelTerm> terms = best.fit.terms;
+    terms.push_back(found.front().term);
+    visited.push_back(stateOf(terms, 1));
   }
   std::vector<std::size_t> order(slots.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;

@@ -160,9 +160,6 @@ class PosteriorSearch {
     double evidence = 0.0;
   };
   [[nodiscard]] State stateOf(const std::vector<ModelTerm>& terms, int rounds) const;
-  /// The terms and a candidate in its best way; where that goes through two lags, or turns out to be impossible with
-  /// all lags refined, in the best of its other ways as well.
-  [[nodiscard]] State stateWith(const std::vector<ModelTerm>& terms, const CandidateFit& candidate, int rounds) const;
   /// An effect whose driver acts through two lags, through one that delays it as much.
   [[nodiscard]] ModelTerm throughOneLag(const JointFit& fit, std::size_t t) const;
   /// An effect whose driver acts through two lags, where one says as much: lags that stand between those of the grid
