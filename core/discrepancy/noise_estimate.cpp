@@ -23,8 +23,6 @@ constexpr double scale_prior_sd = 1.0;
 constexpr double shift_price = 4.0;
 constexpr double correlation_price = 8.0;
 constexpr double tail_price = 6.0;
-/// The same of a component that is normal although others are not.
-constexpr double normal_price = 1.0;
 /// Of noise that is correlated in time, actual / stated sigma.
 constexpr double largest_slow_noise = 1.5;
 /// The same where it is as slow as what is measured: its correlation time over the time of all observations.
@@ -587,33 +585,6 @@ std::vector<double> shiftDeviances(const ResidualProblem& problem, const Compone
   return out;
 }
 
-/// Degrees of freedom of the Student distribution of every component's own noise, 0 where it is normal. Few readings of
-/// one component do not tell how heavy tails are: one distribution for all, each by its own scale, but for components
-/// that say themselves that they are normal, so that what disturbs one is not taken for noise of the others.
-std::array<double, 6> tailsOf(const std::array<ComponentEstimate, 6>& estimates) {
-  std::array<double, 6> out{};
-  Index readings = 0;
-  for (const ComponentEstimate& e : estimates) readings += e.present ? e.own.size() : 0;
-  if (readings < 30) return out;
-  double best = tail_price;
-  for (const double trial : {3.0, 4.0, 6.0, 10.0}) {
-    std::array<double, 6> dof{};
-    double gain = 0.0;
-    for (std::size_t c = 0; c < estimates.size(); ++c) {
-      if (!estimates[c].present) continue;
-      const std::vector<double> own(estimates[c].own.begin(), estimates[c].own.end());
-      const double of_tails = tailLikelihood(own, trial) - tailLikelihood(own, 0.0);
-      if (of_tails > -normal_price) dof[c] = trial;
-      gain += std::max(of_tails, -normal_price);
-    }
-    if (gain > best) {
-      best = gain;
-      out = dof;
-    }
-  }
-  return out;
-}
-
 }  // namespace
 
 NoiseModel estimateNoise(const ResidualProblem& problem, const Eigen::VectorXd& residual, bool fitted) {
@@ -646,16 +617,35 @@ NoiseModel estimateNoise(const ResidualProblem& problem, const Eigen::VectorXd& 
     e.p.log_scale = std::log(spread);
     estimateWithCourses(problem, e, false, !fitted);
   });
-  std::array<double, 6> tails{};
+  // Heavy tails: one distribution for all components, each by its own scale.
+  const auto pooled = [&] {
+    std::vector<double> all;
+    for (const ComponentEstimate& e : estimates) {
+      if (!e.present) continue;
+      std::vector<double> magnitude;
+      for (Index i = 0; i < e.own.size(); ++i) magnitude.push_back(std::abs(e.own[i]));
+      const double scale = std::max(1e-9, 1.4826 * median(magnitude));
+      for (Index i = 0; i < e.own.size(); ++i) all.push_back(e.own[i] / scale);
+    }
+    return all;
+  };
   for (int iteration = 0; iteration < 3; ++iteration) {
-    const std::array<double, 6> now = tailsOf(estimates);
-    constexpr std::array<double, 6> none{};
-    if (iteration > 0 && now == none && tails == none) break;
-    tails = now;
+    const std::vector<double> own = pooled();
+    if (own.size() < 30) break;
+    double dof = 0.0;
+    double best = tailLikelihood(own, 0.0) + tail_price;
+    for (const double trial : {3.0, 4.0, 6.0, 10.0}) {
+      const double value = tailLikelihood(own, trial);
+      if (value > best) {
+        best = value;
+        dof = trial;
+      }
+    }
+    if (!(dof > 0.0) && !(out.tail_dof > 0.0) && iteration > 0) break;
+    out.tail_dof = dof;
     parallelFor(estimates.size(), job, [&](std::size_t c) {
       ComponentEstimate& e = estimates[c];
       if (!e.present) return;
-      const double dof = tails[c];
       for (Index i = 0; i < e.own.size(); ++i) {
         e.data.weight[i] = dof > 0.0 ? std::max(1e-4, (dof + 1.0) / (dof + e.own[i] * e.own[i])) : 1.0;
       }
@@ -673,7 +663,6 @@ NoiseModel estimateNoise(const ResidualProblem& problem, const Eigen::VectorXd& 
     n.common = e.p.shift;
     n.correlated_part = e.p.part;
     n.correlation_time_s = e.p.part > 0.0 ? e.p.time_s : 0.0;
-    n.tail_dof = tails[c];
     for (std::size_t i = 0; i < e.data.units.size(); ++i) {
       out.weight[e.data.units[i]] = e.data.weight[static_cast<Index>(i)];
       any_weight = any_weight || e.data.weight[static_cast<Index>(i)] != 1.0;
@@ -759,21 +748,9 @@ double jointDeviance(const NoiseProfiles& profiles, std::vector<double> NoisePro
   return out;
 }
 
-double ComponentNoise::varianceOfStudent() const noexcept {
-  return tail_dof > 2.0 ? tail_dof / (tail_dof - 2.0) : 1.0;
-}
-
-double ComponentNoise::varianceOfTails() const noexcept {
+double NoiseModel::varianceOfTails() const noexcept {
   const double dof = std::max(4.0, tail_dof);
   return tail_dof > 0.0 ? dof / (dof - 2.0) : 1.0;
-}
-
-double NoiseModel::heaviestTails() const noexcept {
-  double out = 0.0;
-  for (const ComponentNoise& n : component) {
-    if (n.tail_dof > 0.0 && (!(out > 0.0) || n.tail_dof < out)) out = n.tail_dof;
-  }
-  return out;
 }
 
 std::vector<Component> movedTogether(const ResidualProblem& problem, const NoiseModel& noise) {
@@ -786,7 +763,7 @@ std::vector<Component> movedTogether(const ResidualProblem& problem, const Noise
       own += std::pow(problem.reading_sigma[u] * noise.of(c).scale, 2);
       count += 1.0;
     }
-    if (count > 0.0 && noise.of(c).common > largest_shift * std::sqrt(noise.of(c).varianceOfTails() * own / count))
+    if (count > 0.0 && noise.of(c).common > largest_shift * std::sqrt(noise.varianceOfTails() * own / count))
       out.push_back(c);
   }
   return out;

@@ -40,22 +40,17 @@ struct ComponentNoise {
   double common = 0.0;              ///< standard deviation of the shift of a state, um or urad
   double correlated_part = 0.0;     ///< a, 0 ... 1
   double correlation_time_s = 0.0;  ///< T
-  double tail_dof = 0.0;            ///< degrees of freedom of the Student distribution of the own noise; 0: normal
-
-  /// Variance of the own noise over the square of its scale, 1 if it is normal.
-  [[nodiscard]] double varianceOfStudent() const noexcept;
-  /// The same as far as it is noise: what outliers make of it, of very heavy tails not all.
-  [[nodiscard]] double varianceOfTails() const noexcept;
 };
 
 struct NoiseModel {
   std::array<ComponentNoise, 6> component;
   Eigen::VectorXd weight;  ///< of every unit, 0 < w <= 1; empty: 1
+  double tail_dof = 0.0;   ///< degrees of freedom of the Student distribution of the own noise; 0: normal
 
   [[nodiscard]] const ComponentNoise& of(Component c) const { return component[static_cast<std::size_t>(c)]; }
   [[nodiscard]] ComponentNoise& of(Component c) { return component[static_cast<std::size_t>(c)]; }
-  /// Degrees of freedom of the heaviest tails of a component; 0: all are normal.
-  [[nodiscard]] double heaviestTails() const noexcept;
+  /// Variance of the own noise over that of its core: what outliers make of it; of very heavy tails not all.
+  [[nodiscard]] double varianceOfTails() const noexcept;
 };
 
 /// A nuisance column over the units; prior_sigma = 0: free, else standard deviation of its coefficient.
