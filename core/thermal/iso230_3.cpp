@@ -119,9 +119,8 @@ void checkWindow(double window_s, std::span<const double> time_s) {
   const double longest_s =
       std::max(level_window_s, time_s.empty() ? 0.0 : std::floor(0.5 * (time_s.back() - time_s.front())));
   if (window_s >= 0.0 && window_s <= longest_s) return;
-  throw InputError(fmt::format(
-      "a level cannot be read over {:g} s of a record of {:g} s; allowed: 0 s to half of the record, {:g} s.", window_s,
-      time_s.empty() ? 0.0 : time_s.back() - time_s.front(), longest_s));
+  throw InputError(fmt::format("a level cannot be read over {:g} s of a record of {:g} s; allowed: 0 s to {:g} s.",
+                               window_s, time_s.empty() ? 0.0 : time_s.back() - time_s.front(), longest_s));
 }
 
 AxisPositionResult evaluatePosition(const std::vector<AxisReading>& readings, double position) {

@@ -47,7 +47,8 @@ constexpr double level_window_s = 120.0;  ///< short beside an hour, in which th
 /// The test is of a machine at rest. Throws InputError if a spindle (a signal of kind Speed) turns anywhere in the log.
 /// Returns what else speaks against a machine at rest or could not be checked: axes that moved, a log without a speed.
 [[nodiscard]] std::vector<std::string> requireMachineAtRest(const TimeSeries& series);
-/// `ambient_degC` may be empty: then nothing is per K.
+/// `ambient_degC` may be empty: then nothing is per K. Throws InputError where `window_s` is negative or longer than
+/// half of the record (level_window_s is taken of any), where a component has too few readings, or without a component.
 [[nodiscard]] EtveResult evaluateEtve(std::span<const double> time_s, const std::vector<ComponentSeries>& components,
                                       std::span<const double> ambient_degC, double window_s = level_window_s);
 
@@ -77,7 +78,8 @@ struct SpindleResult {
 [[nodiscard]] std::string requireOneSpeedStep(const TimeSeries& series, const std::string& column,
                                               std::span<const double> speed);
 /// The running period is from the first row whose speed is above what an encoder shows of a spindle
-/// that stands (1 rpm) to the last one.
+/// that stands (1 rpm) to the last one. Throws InputError where there is none, where `fraction` is not between 0 and 1,
+/// and as evaluateEtve does.
 [[nodiscard]] SpindleResult evaluateRotatingSpindle(std::span<const double> time_s, std::span<const double> speed_rpm,
                                                     const std::vector<ComponentSeries>& components,
                                                     double fraction = 0.9, double window_s = level_window_s);

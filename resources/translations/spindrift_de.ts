@@ -9909,8 +9909,8 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>{} als {} scannen, beginnend bei {:g} mm</translation>
     </message>
     <message>
-        <source>a level cannot be read over {:g} s of a record of {:g} s; allowed: 0 s to half of the record, {:g} s.</source>
-        <translation>ein Niveau kann nicht über {:g} s einer Aufzeichnung von {:g} s gelesen werden; zulässig: 0 s bis zur halben Aufzeichnung, {:g} s.</translation>
+        <source>a level cannot be read over {:g} s of a record of {:g} s; allowed: 0 s to {:g} s.</source>
+        <translation>ein Niveau kann nicht über {:g} s einer Aufzeichnung von {:g} s gelesen werden; zulässig: 0 s bis {:g} s.</translation>
     </message>
     <message>
         <source>the columns are separated by semicolons; allowed: commas, and numbers with a decimal point.</source>

@@ -198,6 +198,17 @@ TEST(Iso2303, ALevelOverTheWholeRecordIsRefused) {
     EXPECT_THROW(static_cast<void>(evaluateRotatingSpindle(time, rpm, {ez}, 0.9, window_s)), InputError) << window_s;
   }
   EXPECT_GT(evaluateEtve(time, {ez}, rpm, 3000.0).components[0].range, 0.0);
+  EXPECT_EQ(evaluateRotatingSpindle(time, rpm, {ez}, 0.9, 3000.0).window_s, 3000.0);
+  // The usual window is taken of a record of any length, and no longer one is said to be allowed.
+  const std::vector<double> eleven{0, 15, 30, 45, 60, 75, 90, 105, 120, 135, 150};
+  const ComponentSeries few{"EZ", "um", eleven, 0.1};
+  EXPECT_EQ(evaluateEtve(eleven, {few}, {}).window_s, level_window_s);
+  try {
+    static_cast<void>(evaluateEtve(eleven, {few}, {}, 121.0));
+    ADD_FAILURE() << "a longer one was taken";
+  } catch (const InputError& e) {
+    EXPECT_NE(std::string(e.what()).find("allowed: 0 s to 120 s"), std::string::npos) << e.what();
+  }
 }
 
 TEST(Iso2303, RefusesTestsThatHoldNothing) {

@@ -35,7 +35,7 @@ std::span<const char* const> spindrift::gui::core_formats::thermal() noexcept {
     QT_TRANSLATE_NOOP("core", "The range of training of input {} is not finite."),
     QT_TRANSLATE_NOOP("core", "Too few samples for a choice between methods: response."),
     QT_TRANSLATE_NOOP("core", "\"{}\" is not a number; allowed: a finite number with a decimal point{}."),
-    QT_TRANSLATE_NOOP("core", "a level cannot be read over {:g} s of a record of {:g} s; allowed: 0 s to half of the record, {:g} s."),
+    QT_TRANSLATE_NOOP("core", "a level cannot be read over {:g} s of a record of {:g} s; allowed: 0 s to {:g} s."),
     QT_TRANSLATE_NOOP("core", "a printed model needs at least one a, two b with b0 not zero, and a positive period."),
     QT_TRANSLATE_NOOP("core", "a signal has missing values inside the range; resample it with gaps bridged, or cut the range at the gap."),
     QT_TRANSLATE_NOOP("core", "a square matrix of two rows for every input"),
