@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/discrepancy/candidate_library.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
 #include <optional>
+#include <string>
 
 namespace spindrift {
 namespace {
@@ -103,10 +106,15 @@ CandidateLibrary::Entry CandidateLibrary::entryOf(const Effect& effect) const {
     response_index.emplace(key, index);
     return index;
   };
+  std::map<std::string, std::size_t> kinds;
   const auto addWay = [&](const EffectVariant& variant, std::vector<double> parameters,
                           const std::vector<Index>& which) {
     if (which.size() * static_cast<std::size_t>(k) > (effect.own ? most_columns : most_built_in_columns)) return;
+    std::string kind;  // one power of a speed stands for all
+    for (const EffectInput& input : variant.inputs)
+      kind += fmt::format("{}/{} ", input.driver.substr(0, input.driver.find('^')), static_cast<int>(input.dynamics));
     Way way;
+    way.kind = kinds.try_emplace(kind, kinds.size()).first->second;
     way.variant = variant;
     way.parameters = std::move(parameters);
     for (const Index r : which) {
@@ -242,6 +250,11 @@ CandidateLibrary::Entry CandidateLibrary::entryOf(const Effect& effect) const {
   return entry;
 }
 
+bool throughTwoLags(const EffectVariant& variant) {
+  return variant.inputs.size() == 2 && !variant.shared_lag && variant.inputs[0].dynamics == Dynamics::Lag &&
+         variant.inputs[1].dynamics == Dynamics::Lag && variant.inputs[0].driver == variant.inputs[1].driver;
+}
+
 double CandidateLibrary::choicePrice(const Effect& effect) const {
   for (const Entry& entry : entries_) {
     if (entry.effect != &effect || entry.ways.empty()) continue;
@@ -270,7 +283,13 @@ std::optional<CandidateFit> CandidateLibrary::bestOf(const Entry& entry, const G
   }
   const double log_n = search_->logN();
   const double price = choicePrice(*entry.effect);
-  std::optional<CandidateFit> best;
+  struct Weighed {
+    const Way* way;
+    GramGain gain;
+    double evidence;
+  };
+  std::vector<Weighed> weighed;
+  weighed.reserve(entry.ways.size());
   Eigen::MatrixXd gram;
   std::array<double, most_columns> product{};
   std::array<double, most_columns> whole{};
@@ -304,10 +323,29 @@ std::optional<CandidateFit> CandidateLibrary::bestOf(const Entry& entry, const G
     const GramGain gain = gramGain(gram, product, whole);
     if (gain.rank == 0 || !std::isfinite(gain.delta)) continue;
     const double evidence = gain.delta - gain.rank * log_n - price - (warmStart(way.variant) ? warm_price : 0.0);
-    if (best && !(evidence > best->evidence)) continue;
-    ModelTerm term{entry.effect, way.variant, way.parameters};
-    if (!search_->admissible(term, Eigen::Map<const Eigen::VectorXd>(gain.gain.data(), m))) continue;
-    best = CandidateFit{std::move(term), gain.delta, gain.rank, evidence};
+    weighed.push_back({&way, gain, evidence});
+  }
+  // The best that can be, and the best of each other kind but through two lags.
+  constexpr std::size_t most_other_ways = 4;
+  const auto worse = [](const Weighed& x, const Weighed& y) { return x.evidence < y.evidence; };
+  std::make_heap(weighed.begin(), weighed.end(), worse);
+  std::optional<CandidateFit> best;
+  std::vector<std::size_t> kinds;
+  while (!weighed.empty() && kinds.size() <= most_other_ways) {
+    std::pop_heap(weighed.begin(), weighed.end(), worse);
+    const Weighed w = weighed.back();
+    weighed.pop_back();
+    if (std::find(kinds.begin(), kinds.end(), w.way->kind) != kinds.end()) continue;
+    if (best && throughTwoLags(w.way->variant)) continue;
+    ModelTerm term{entry.effect, w.way->variant, w.way->parameters};
+    const auto m = static_cast<Index>(w.way->columns.size());
+    if (!search_->admissible(term, Eigen::Map<const Eigen::VectorXd>(w.gain.gain.data(), m))) continue;
+    kinds.push_back(w.way->kind);
+    if (best) {
+      best->other_ways.push_back(std::move(term));
+    } else {
+      best = CandidateFit{std::move(term), w.gain.delta, w.gain.rank, w.evidence, {}};
+    }
   }
   return best;
 }

@@ -26,12 +26,18 @@ constexpr double warm_price = 2.8;
   return !variant.inputs.empty() && variant.inputs.back().dynamics == Dynamics::Start;
 }
 
+/// One driver, through two lags.
+[[nodiscard]] bool throughTwoLags(const EffectVariant& variant);
+
 /// The best way of one effect on the grid.
 struct CandidateFit {
   ModelTerm term;
   double delta_chi2 = 0.0;
   int rank = 0;           ///< gains that the data see
   double evidence = 0.0;  ///< as above
+  /// The best ways with other drivers or dynamics, of one lag at most, best first. What is best on the grid may turn
+  /// out to be impossible when its lags are refined, and one lag between two of the grid looks like two.
+  std::vector<ModelTerm> other_ways;
 };
 
 class CandidateLibrary {
@@ -54,6 +60,7 @@ class CandidateLibrary {
  private:
   struct Way {
     EffectVariant variant;
+    std::size_t kind = 0;  ///< ways of one kind have the same drivers, a speed in any power, and dynamics
     std::vector<double> parameters;
     std::vector<Eigen::Index> columns;
     Eigen::MatrixXd gram;  ///< free of the problem's nuisances

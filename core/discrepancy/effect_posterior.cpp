@@ -44,10 +44,11 @@ std::string keyOf(const std::vector<ModelTerm>& terms) {
   return key;
 }
 
-/// Of the catalogue, and holds a simpler effect: a wide shape follows part of much that it does not cause. Effects of
-/// the user's pay for their gains alone.
+/// Of the catalogue, and holds a simpler effect in a wider pattern, which follows part of much that it does not cause.
+/// One that holds another in the same pattern, driven in more ways, pays for the choice among these. Effects of the
+/// user's pay for their gains alone.
 bool wide(const Effect& effect) {
-  return !effect.own && !effect.contains.empty();
+  return !effect.own && !effect.contains.empty() && effect.shape.size() > 1;
 }
 
 bool driverless(const Effect& effect) {
@@ -55,12 +56,6 @@ bool driverless(const Effect& effect) {
          std::all_of(effect.variants.begin(), effect.variants.end(), [](const EffectVariant& variant) {
            return variant.inputs[0].driver.empty() && variant.inputs[0].dynamics == Dynamics::Pulse;
          });
-}
-
-/// One driver, through two lags.
-bool throughTwoLags(const EffectVariant& variant) {
-  return variant.inputs.size() == 2 && !variant.shared_lag && variant.inputs[0].dynamics == Dynamics::Lag &&
-         variant.inputs[1].dynamics == Dynamics::Lag && variant.inputs[0].driver == variant.inputs[1].driver;
 }
 
 bool sameShape(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
@@ -184,29 +179,34 @@ double PosteriorSearch::imitationPrice(const JointFit& fit) const {
   for (std::size_t t = 0; t < fit.terms.size(); ++t) parts.col(static_cast<Index>(t)) = fit.contribution[t];
   const Eigen::MatrixXd white = problem_->projected(parts);
   const Eigen::MatrixXd whole = problem_->whitened(parts);
+  std::array<double, 6> units{};
+  for (const Component c : problem_->component) units[static_cast<std::size_t>(c)] += 1.0;
   double price = 0.0;
   for (std::size_t t = 0; t < fit.terms.size(); ++t) {
     std::array<double, 6> own{};
-    std::array<double, 6> others{};
     std::array<double, 6> before{};
     double total = 0.0;
     for (Index u = 0; u < problem_->size(); ++u) {
       const auto c = static_cast<std::size_t>(problem_->component[static_cast<std::size_t>(u)]);
       const double z = white(u, static_cast<Index>(t));
-      const double rest = white.row(u).sum() - z;
       own[c] += z * z;
       before[c] += std::pow(whole(u, static_cast<Index>(t)), 2);
-      others[c] += rest * rest;
       total += z * z;
     }
     const EffectInput& first = fit.terms[t].variant.inputs[0];
     const bool onset = first.dynamics == Dynamics::Step || first.dynamics == Dynamics::Pulse;
     const double part = onset ? priors_.further_onset_error : priors_.further_error;
+    // Where and when it acts: a slip of one point imitates nothing of what moves the others.
+    std::array<double, 6> others{};
+    for (Index u = 0; u < problem_->size(); ++u) {
+      const auto c = static_cast<std::size_t>(problem_->component[static_cast<std::size_t>(u)]);
+      const double z = white(u, static_cast<Index>(t));
+      const double rest = white.row(u).sum() - z;
+      others[c] += std::min(1.0, z * z * units[c] / std::max(1e-9, own[c])) * rest * rest;
+    }
     for (std::size_t c = 0; c < own.size(); ++c) {
       if (own[c] < 0.05 * total) continue;
-      // As far as it acts there: a slip of one point imitates nothing of the others.
-      const double share = std::min(1.0, own[c] / std::max(1e-9, others[c]));
-      price += share * part * part * others[c];
+      price += part * part * others[c];
       // What the nuisances of the simulation can follow has paid for its error already.
       if (fit.terms[t].effect->id == off_) continue;
       const double beyond = std::min(1.0, own[c] / std::max(1e-9, before[c]));
@@ -418,6 +418,22 @@ PosteriorSearch::State PosteriorSearch::stateOf(const std::vector<ModelTerm>& te
   return rounds > 1 ? withFewerLags(std::move(out), rounds) : out;
 }
 
+PosteriorSearch::State PosteriorSearch::stateWith(const std::vector<ModelTerm>& terms, const CandidateFit& candidate,
+                                                  int rounds) const {
+  std::vector<ModelTerm> with = terms;
+  with.push_back(candidate.term);
+  State best = stateOf(with, rounds);
+  if (!throughTwoLags(best.fit.terms.back().variant) &&
+      search_->admissible(best.fit.terms.back(), best.fit.gains.back()))
+    return best;
+  for (const ModelTerm& other : candidate.other_ways) {
+    with.back() = other;
+    State again = stateOf(with, rounds);
+    if (again.evidence > best.evidence) best = std::move(again);
+  }
+  return best;
+}
+
 ModelTerm PosteriorSearch::throughOneLag(const JointFit& fit, std::size_t t) const {
   ModelTerm out = fit.terms[t];
   out.variant.inputs.pop_back();
@@ -463,11 +479,7 @@ std::vector<PosteriorSearch::State> PosteriorSearch::extend(const State& state, 
     tried.push_back(&c);
   }
   std::vector<State> out(tried.size());
-  parallelFor(tried.size(), job, [&](std::size_t i) {
-    std::vector<ModelTerm> terms = state.fit.terms;
-    terms.push_back(tried[i]->term);
-    out[i] = stateOf(terms, 1);
-  });
+  parallelFor(tried.size(), job, [&](std::size_t i) { out[i] = stateWith(state.fit.terms, *tried[i], 1); });
   return out;
 }
 
@@ -525,11 +537,7 @@ SlotEvidence PosteriorSearch::slotOf(const State& best, std::size_t t, const Job
     tried.push_back(&c);
   }
   std::vector<State> states(tried.size());
-  parallelFor(tried.size(), job, [&](std::size_t i) {
-    std::vector<ModelTerm> terms = others;
-    terms.push_back(tried[i]->term);
-    states[i] = stateOf(terms, 2);
-  });
+  parallelFor(tried.size(), job, [&](std::size_t i) { states[i] = stateWith(others, *tried[i], 2); });
   const auto rejected = [&](const std::string& id) {
     return std::find(options_->reject.begin(), options_->reject.end(), id) != options_->reject.end();
   };
@@ -654,9 +662,7 @@ EffectPosterior PosteriorSearch::run(const JobContext& job, const ModelTerm* off
       throw InputError(
           fmt::format("{} cannot be accepted: nothing in the log drives it, or these data do not show it.", id));
     }
-    std::vector<ModelTerm> terms = start.fit.terms;
-    terms.push_back(found.front().term);
-    start = stateOf(terms, 1);
+    start = stateWith(start.fit.terms, found.front(), 1);
   }
   visited.push_back(start);
   State best = start;
@@ -733,9 +739,7 @@ EffectPosterior PosteriorSearch::run(const JobContext& job, const ModelTerm* off
     }
     const std::vector<CandidateFit> found = library_->sweep(given(best.fit), skip, job);
     if (found.empty()) continue;
-    std::vector<ModelTerm> terms = best.fit.terms;
-    terms.push_back(found.front().term);
-    visited.push_back(stateOf(terms, 1));
+    visited.push_back(stateWith(best.fit.terms, found.front(), 1));
   }
   std::vector<std::size_t> order(slots.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;

@@ -60,8 +60,8 @@ struct DiscrepancyPriors {
   double wider = 0.1;
   double wider_error = 0.06;
   double refinement_error = 0.14;  ///< the same of a refinement (a screw that is warmer in one place)
-  /// The same of two effects: part of the amplitude of the others in its components that a further effect may imitate;
-  /// of one that chooses its own onset.
+  /// The same of two effects: part of the amplitude of the others, where and when it acts, that a further effect may
+  /// imitate, so that one smaller than this needs more; of one that chooses its own onset.
   double further_error = 0.07;
   double further_onset_error = 0.12;
   /// Evidence (2 ln of the odds) from which on effects are believed in place of noise that is common to a state or
@@ -160,6 +160,9 @@ class PosteriorSearch {
     double evidence = 0.0;
   };
   [[nodiscard]] State stateOf(const std::vector<ModelTerm>& terms, int rounds) const;
+  /// The terms and a candidate in its best way; where that goes through two lags, or turns out to be impossible with
+  /// all lags refined, in the best of its other ways as well.
+  [[nodiscard]] State stateWith(const std::vector<ModelTerm>& terms, const CandidateFit& candidate, int rounds) const;
   /// An effect whose driver acts through two lags, through one that delays it as much.
   [[nodiscard]] ModelTerm throughOneLag(const JointFit& fit, std::size_t t) const;
   /// An effect whose driver acts through two lags, where one says as much: lags that stand between those of the grid

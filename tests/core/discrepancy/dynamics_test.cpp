@@ -97,6 +97,40 @@ TEST(Dynamics, OfOneLagAreToldAsOneLagByTheRightClock) {
   }
 }
 
+TEST(Dynamics, OfASpindleThatRanOnceAreNotTakenForALoadOfUnknownOnset) {
+  // Forty times the noise, through a lag between those of the grid; the sensor sees it five minutes later.
+  constexpr double lag_s = 2400.0;
+  for (std::uint64_t seed = 61; seed <= 64; ++seed) {
+    SCOPED_TRACE(seed);
+    DiscrepancyInput input = campaign(Hidden::Nothing, seed);
+    Random random(seed);
+    std::vector<double> rpm;
+    std::vector<double> grown;
+    std::vector<double> seen;
+    double state = 0.0;
+    for (const double t : input.log->time_s()) {
+      const std::size_t row = grown.size();
+      if (row > 0) state += (rpm.back() * 1e-3 - state) * (1.0 - std::exp(-30.0 / lag_s));
+      rpm.push_back(t < 1800.0 || t >= 14400.0 ? 0.0 : 6000.0);
+      grown.push_back(state);
+      seen.push_back(22.0 + 1.4 * (row < 10 ? 0.0 : grown[row - 10]) + random.normal(0.0, 0.02));
+    }
+    input.log->setSignal("spindle_rpm", rpm);
+    input.log->setSignal("T_spindle_degC", seen);
+    const std::vector<double>& time = input.log->time_s();
+    for (Observation& o : input.observations.rows) {
+      const auto at = static_cast<std::size_t>(std::lower_bound(time.begin(), time.end(), o.time_s) - time.begin());
+      if (o.component == Component::EZ) o.value += 3.5 * grown[at];
+    }
+    const DiscrepancyResult result = run(std::move(input));
+    ASSERT_EQ(result.effects.size(), 1U);
+    EXPECT_EQ(result.effects[0].id, "spindle.growth.z");
+    EXPECT_GT(result.effects[0].confidence, 0.8);
+    EXPECT_EQ(result.effects[0].drivers.find('+'), std::string::npos) << result.effects[0].drivers;
+    EXPECT_EQ(result.clock_offset_s, 0.0);
+  }
+}
+
 TEST(Dynamics, OfAHeatedScrewPredictHeldOutStates) {
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
     std::vector<double> hidden;
