@@ -135,12 +135,11 @@ double noiseFloor(const DiscrepancyInput& input, const ResidualProblem& problem,
                   const std::vector<std::size_t>& fit_rows, bool rotations) {
   double power = 0.0;
   double count = 0.0;
-  const double tails = problem.noise.tail_dof > 2.0 ? problem.noise.tail_dof / (problem.noise.tail_dof - 2.0) : 1.0;
   for (const std::size_t row : fit_rows) {
     const Observation& o = input.observations.rows[row];
     if (isRotation(o.component) != rotations) continue;
     const ComponentNoise& n = problem.noise.of(o.component);
-    power += std::pow(o.sigma * n.scale, 2) * tails + n.common * n.common;
+    power += std::pow(o.sigma * n.scale, 2) * n.varianceOfStudent() + n.common * n.common;
     count += 1.0;
   }
   return count > 0.0 ? std::sqrt(power / count) : 0.0;

@@ -82,10 +82,10 @@ std::vector<Effect> catalogueOf(const DiscrepancyInput& input, DriverTable& driv
 /// True if the noise is another one, so that effects have to be weighed again.
 bool differs(const NoiseModel& a, const NoiseModel& b) {
   const auto ratio = [](double x, double y) { return std::abs(std::log(std::max(1e-9, x) / std::max(1e-9, y))); };
-  if ((a.tail_dof > 0.0) != (b.tail_dof > 0.0)) return true;
   for (std::size_t c = 0; c < a.component.size(); ++c) {
     const ComponentNoise& x = a.component[c];
     const ComponentNoise& y = b.component[c];
+    if ((x.tail_dof > 0.0) != (y.tail_dof > 0.0)) return true;
     if (ratio(x.scale, y.scale) > 0.1 || std::abs(x.correlated_part - y.correlated_part) > 0.2) return true;
     if ((x.common > 0.0 || y.common > 0.0) && ratio(x.common + 0.02, y.common + 0.02) > 0.25) return true;
   }
@@ -193,7 +193,9 @@ void weigh(Analysis& a, const DiscrepancyInput& input, ResidualProblem& problem,
   if (options.max_effects == 0 || input.tangents) return;
   const NoiseModel noise = problem.noise;
   const bool nothing = a.posterior.fit.terms.size() == (off == nullptr ? 0 : 1);
-  const NoiseModel own = nothing ? ownNoiseOf(start) : ownNoiseOf(noise, movedTogether(problem, noise));
+  std::vector<Component> moved = movedTogether(problem, noise);
+  if (moved.empty()) moved = movedTogether(problem, noise, doubtful_shift);
+  const NoiseModel own = nothing ? ownNoiseOf(start) : ownNoiseOf(noise, moved);
   if (!differs(noise, nothing ? ownNoiseOf(noise) : own)) return;
   const double clock_offset_s = a.clock_offset_s;
   const double clock_uncertainty_s = a.clock_uncertainty_s;

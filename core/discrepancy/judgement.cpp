@@ -117,7 +117,6 @@ double imitationRatio(const ResidualProblem& problem, const EffectSearch& search
   double own_since = 0.0;
   double together_since = 0.0;
   const double largest = own.cwiseAbs().maxCoeff();
-  const double spread = problem.noise.varianceOfTails();
   for (Index u = 0; u < problem.size(); ++u) {
     const Component c = problem.component[static_cast<std::size_t>(u)];
     if (std::abs(moved[u]) < 1e-6 * largest) continue;
@@ -128,8 +127,9 @@ double imitationRatio(const ResidualProblem& problem, const EffectSearch& search
     together_power += std::pow(together[u] / sigma, 2);
     left += std::pow(rest[u] / sigma, 2);
     if (told[static_cast<std::size_t>(c)]) left += std::pow(remaining[u] / sigma, 2);
-    const double reading = problem.reading_sigma[u] * problem.noise.of(c).scale;
-    left += std::max(0.0, std::pow(problem.noise.of(c).common, 2) - spread * reading * reading) / (sigma * sigma);
+    const ComponentNoise& n = problem.noise.of(c);
+    const double reading = problem.reading_sigma[u] * n.scale;
+    left += std::max(0.0, n.common * n.common - n.varianceOfTails() * reading * reading) / (sigma * sigma);
   }
   const double power = std::min(own_power, together_power);
   // A step is a step: it has no dynamics that could be a little different.

@@ -23,6 +23,8 @@ constexpr double scale_prior_sd = 1.0;
 constexpr double shift_price = 4.0;
 constexpr double correlation_price = 8.0;
 constexpr double tail_price = 6.0;
+/// The same of a component that is normal although others are not.
+constexpr double normal_price = 4.0;
 /// Of noise that is correlated in time, actual / stated sigma.
 constexpr double largest_slow_noise = 1.5;
 /// The same where it is as slow as what is measured: its correlation time over the time of all observations.
@@ -585,6 +587,41 @@ std::vector<double> shiftDeviances(const ResidualProblem& problem, const Compone
   return out;
 }
 
+/// Degrees of freedom of the Student distribution of every component's own noise, 0 where it is normal. Few readings of
+/// one component do not tell how heavy tails are: one distribution for all, each by its own scale, but for components
+/// that say themselves that they are normal, so that what disturbs one is not taken for noise of the others.
+std::array<double, 6> tailsOf(const std::array<ComponentEstimate, 6>& estimates) {
+  std::array<double, 6> out{};
+  std::array<std::vector<double>, 6> own;  // over the scale of their core
+  std::size_t readings = 0;
+  for (std::size_t c = 0; c < estimates.size(); ++c) {
+    if (!estimates[c].present) continue;
+    const Eigen::VectorXd& all = estimates[c].own;
+    std::vector<double> magnitude;
+    for (const double value : all) magnitude.push_back(std::abs(value));
+    const double scale = std::max(1e-9, 1.4826 * median(magnitude));
+    for (const double value : all) own[c].push_back(value / scale);
+    readings += own[c].size();
+  }
+  if (readings < 30) return out;
+  double best = tail_price;
+  for (const double trial : {3.0, 4.0, 6.0, 10.0}) {
+    std::array<double, 6> dof{};
+    double gain = 0.0;
+    for (std::size_t c = 0; c < estimates.size(); ++c) {
+      if (!estimates[c].present) continue;
+      const double of_tails = tailLikelihood(own[c], trial) - tailLikelihood(own[c], 0.0);
+      if (of_tails > -normal_price) dof[c] = trial;
+      gain += std::max(of_tails, -normal_price);
+    }
+    if (gain > best) {
+      best = gain;
+      out = dof;
+    }
+  }
+  return out;
+}
+
 }  // namespace
 
 NoiseModel estimateNoise(const ResidualProblem& problem, const Eigen::VectorXd& residual, bool fitted) {
@@ -617,35 +654,16 @@ NoiseModel estimateNoise(const ResidualProblem& problem, const Eigen::VectorXd& 
     e.p.log_scale = std::log(spread);
     estimateWithCourses(problem, e, false, !fitted);
   });
-  // Heavy tails: one distribution for all components, each by its own scale.
-  const auto pooled = [&] {
-    std::vector<double> all;
-    for (const ComponentEstimate& e : estimates) {
-      if (!e.present) continue;
-      std::vector<double> magnitude;
-      for (Index i = 0; i < e.own.size(); ++i) magnitude.push_back(std::abs(e.own[i]));
-      const double scale = std::max(1e-9, 1.4826 * median(magnitude));
-      for (Index i = 0; i < e.own.size(); ++i) all.push_back(e.own[i] / scale);
-    }
-    return all;
-  };
+  std::array<double, 6> tails{};
   for (int iteration = 0; iteration < 3; ++iteration) {
-    const std::vector<double> own = pooled();
-    if (own.size() < 30) break;
-    double dof = 0.0;
-    double best = tailLikelihood(own, 0.0) + tail_price;
-    for (const double trial : {3.0, 4.0, 6.0, 10.0}) {
-      const double value = tailLikelihood(own, trial);
-      if (value > best) {
-        best = value;
-        dof = trial;
-      }
-    }
-    if (!(dof > 0.0) && !(out.tail_dof > 0.0) && iteration > 0) break;
-    out.tail_dof = dof;
+    const std::array<double, 6> now = tailsOf(estimates);
+    constexpr std::array<double, 6> none{};
+    if (iteration > 0 && now == none && tails == none) break;
+    tails = now;
     parallelFor(estimates.size(), job, [&](std::size_t c) {
       ComponentEstimate& e = estimates[c];
       if (!e.present) return;
+      const double dof = tails[c];
       for (Index i = 0; i < e.own.size(); ++i) {
         e.data.weight[i] = dof > 0.0 ? std::max(1e-4, (dof + 1.0) / (dof + e.own[i] * e.own[i])) : 1.0;
       }
@@ -663,6 +681,7 @@ NoiseModel estimateNoise(const ResidualProblem& problem, const Eigen::VectorXd& 
     n.common = e.p.shift;
     n.correlated_part = e.p.part;
     n.correlation_time_s = e.p.part > 0.0 ? e.p.time_s : 0.0;
+    n.tail_dof = tails[c];
     for (std::size_t i = 0; i < e.data.units.size(); ++i) {
       out.weight[e.data.units[i]] = e.data.weight[static_cast<Index>(i)];
       any_weight = any_weight || e.data.weight[static_cast<Index>(i)] != 1.0;
@@ -748,12 +767,24 @@ double jointDeviance(const NoiseProfiles& profiles, std::vector<double> NoisePro
   return out;
 }
 
-double NoiseModel::varianceOfTails() const noexcept {
+double ComponentNoise::varianceOfStudent() const noexcept {
+  return tail_dof > 2.0 ? tail_dof / (tail_dof - 2.0) : 1.0;
+}
+
+double ComponentNoise::varianceOfTails() const noexcept {
   const double dof = std::max(4.0, tail_dof);
   return tail_dof > 0.0 ? dof / (dof - 2.0) : 1.0;
 }
 
-std::vector<Component> movedTogether(const ResidualProblem& problem, const NoiseModel& noise) {
+double NoiseModel::heaviestTails() const noexcept {
+  double out = 0.0;
+  for (const ComponentNoise& n : component) {
+    if (n.tail_dof > 0.0 && (!(out > 0.0) || n.tail_dof < out)) out = n.tail_dof;
+  }
+  return out;
+}
+
+std::vector<Component> movedTogether(const ResidualProblem& problem, const NoiseModel& noise, double shift) {
   std::vector<Component> out;
   for (const Component c : all_components) {
     double own = 0.0;
@@ -763,7 +794,7 @@ std::vector<Component> movedTogether(const ResidualProblem& problem, const Noise
       own += std::pow(problem.reading_sigma[u] * noise.of(c).scale, 2);
       count += 1.0;
     }
-    if (count > 0.0 && noise.of(c).common > largest_shift * std::sqrt(noise.varianceOfTails() * own / count))
+    if (count > 0.0 && noise.of(c).common > shift * std::sqrt(noise.of(c).varianceOfTails() * own / count))
       out.push_back(c);
   }
   return out;

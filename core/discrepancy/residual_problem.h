@@ -32,6 +32,9 @@ namespace spindrift {
 /// which is re-referenced, refocused or zeroed again: what shifts states by clearly more than readings scatter is no
 /// noise.
 inline constexpr double largest_shift = 1.2;
+/// The same from which on an effect is looked for in its place: estimates of such shifts, and of the readings' scatter
+/// beside them, are far off while an effect is not known.
+inline constexpr double doubtful_shift = 0.4;
 
 /// Noise of one component.
 struct ComponentNoise {
@@ -40,17 +43,22 @@ struct ComponentNoise {
   double common = 0.0;              ///< standard deviation of the shift of a state, um or urad
   double correlated_part = 0.0;     ///< a, 0 ... 1
   double correlation_time_s = 0.0;  ///< T
+  double tail_dof = 0.0;            ///< degrees of freedom of the Student distribution of the own noise; 0: normal
+
+  /// Variance of the own noise over the square of its scale, 1 if it is normal.
+  [[nodiscard]] double varianceOfStudent() const noexcept;
+  /// The same as far as it is noise: what outliers make of it, of very heavy tails not all.
+  [[nodiscard]] double varianceOfTails() const noexcept;
 };
 
 struct NoiseModel {
   std::array<ComponentNoise, 6> component;
   Eigen::VectorXd weight;  ///< of every unit, 0 < w <= 1; empty: 1
-  double tail_dof = 0.0;   ///< degrees of freedom of the Student distribution of the own noise; 0: normal
 
   [[nodiscard]] const ComponentNoise& of(Component c) const { return component[static_cast<std::size_t>(c)]; }
   [[nodiscard]] ComponentNoise& of(Component c) { return component[static_cast<std::size_t>(c)]; }
-  /// Variance of the own noise over that of its core: what outliers make of it; of very heavy tails not all.
-  [[nodiscard]] double varianceOfTails() const noexcept;
+  /// Degrees of freedom of the heaviest tails of a component; 0: all are normal.
+  [[nodiscard]] double heaviestTails() const noexcept;
 };
 
 /// A nuisance column over the units; prior_sigma = 0: free, else standard deviation of its coefficient.
@@ -212,8 +220,9 @@ class ResidualProblem {
 /// Sources: Patterson and Thompson 1971 (REML); Lange, Little and Taylor 1989 (Student-t weights).
 [[nodiscard]] NoiseModel estimateNoise(const ResidualProblem& problem, const Eigen::VectorXd& residual, bool fitted);
 
-/// Components in which `noise` shifts states by more than re-referencing does (largest_shift).
-[[nodiscard]] std::vector<Component> movedTogether(const ResidualProblem& problem, const NoiseModel& noise);
+/// Components in which `noise` shifts states by more than `shift` standard deviations of a reading.
+[[nodiscard]] std::vector<Component> movedTogether(const ResidualProblem& problem, const NoiseModel& noise,
+                                                   double shift = largest_shift);
 
 /// How probable a residual of one component is under noise that is made as large as it needs: -2 ln of the restricted
 /// likelihood for every size of the shifts of states, the last without any; one value where states cannot be shifted.

@@ -266,9 +266,7 @@ class Planner {
       DesignNoise noise;
       noise.own = sum.first / sum.second * n.scale;
       // What a reading of heavy tails tells, as one of normal noise (Lange, Little and Taylor 1989).
-      if (problem.noise.tail_dof > 0.0) {
-        noise.own *= std::sqrt((problem.noise.tail_dof + 3.0) / (problem.noise.tail_dof + 1.0));
-      }
+      if (n.tail_dof > 0.0) noise.own *= std::sqrt((n.tail_dof + 3.0) / (n.tail_dof + 1.0));
       noise.common = n.common;
       noise.correlated_part = n.correlated_part;
       noise.correlation_time_s = n.correlation_time_s;

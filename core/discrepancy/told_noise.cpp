@@ -53,16 +53,11 @@ void warnAboutOutliers(const ResidualProblem& problem, const Eigen::VectorXd& le
   }
 }
 
-/// Standard deviation of Student's distribution over its scale.
-double tailFactor(const NoiseModel& noise) {
-  return noise.tail_dof > 2.0 ? std::sqrt(noise.tail_dof / (noise.tail_dof - 2.0)) : 1.0;
-}
-
 void tellScales(const ResidualProblem& problem, DiscrepancyResult& result) {
-  const double tails = tailFactor(problem.noise);
-  result.tail_dof = problem.noise.tail_dof;
+  result.tail_dof = problem.noise.heaviestTails();
   for (const Component c : std::set<Component>(problem.component.begin(), problem.component.end())) {
     const ComponentNoise& n = problem.noise.of(c);
+    const double tails = std::sqrt(n.varianceOfStudent());
     const double scale = n.scale * tails;
     result.noise.push_back({c, scale, n.scale_uncertainty * tails, n.common, n.correlated_part, n.correlation_time_s});
     if (scale >= 0.8 && scale <= 1.25) continue;

@@ -146,13 +146,37 @@ TEST(NoiseEstimate, GivesLittleWeightToOutliersAndFullWeightToNormalNoise) {
   for (std::uint64_t seed = 0; seed < 6; ++seed) {
     const ResidualProblem with = problemOf(inWorkshop(Hidden::Nothing, 400 + seed, {.outliers = 0.02}));
     const NoiseModel tails = estimateNoise(with, with.y, true);
-    heavy += tails.tail_dof > 0.0 ? 1 : 0;
+    heavy += tails.heaviestTails() > 0.0 ? 1 : 0;
     EXPECT_NEAR(tails.component[0].scale, 0.9, 0.35);
     const ResidualProblem without = problemOf(inWorkshop(Hidden::Nothing, 420 + seed, {}));
-    normal += estimateNoise(without, without.y, true).tail_dof > 0.0 ? 0 : 1;
+    normal += estimateNoise(without, without.y, true).heaviestTails() > 0.0 ? 0 : 1;
   }
   EXPECT_EQ(heavy, 6);
   EXPECT_GE(normal, 5);
+}
+
+TEST(NoiseEstimate, OneComponentWithOutliersDoesNotWidenTheOthers) {
+  int inside = 0;
+  int count = 0;
+  double sum = 0.0;
+  for (std::uint64_t seed = 0; seed < 12; ++seed) {
+    DiscrepancyInput input = inWorkshop(Hidden::Nothing, 950 + seed, {});
+    Random random(seed + 31);
+    for (Observation& o : input.observations.rows) {
+      if (o.component == Component::EX && random.uniform() < 0.08)
+        o.value += o.sigma * (random.uniform() < 0.5 ? 12.0 : -12.0);
+    }
+    const DiscrepancyResult result = run(input);
+    for (const NoiseEstimate& n : result.noise) {
+      if (n.component == Component::EX) continue;
+      inside += std::abs(n.scale - 1.0) < 1.96 * n.scale_uncertainty ? 1 : 0;
+      sum += n.scale;
+      ++count;
+    }
+    EXPECT_GT(result.tail_dof, 0.0) << seed;
+  }
+  EXPECT_GE(inside, 18) << "of " << count;
+  EXPECT_NEAR(sum / count, 1.0, 0.06);
 }
 
 TEST(NoiseEstimate, DoesNotTakeTheCourseOfSinglePointsForNoise) {
@@ -174,7 +198,7 @@ TEST(NoiseEstimate, DoesNotTakeTheCourseOfSinglePointsForNoise) {
     const ComponentNoise& n = noise.of(Component::EX);
     inside += std::abs(n.scale - 1.0) < 1.96 * n.scale_uncertainty ? 1 : 0;
     EXPECT_NEAR(n.scale, 1.0, 0.25);
-    tails += noise.tail_dof > 0.0 ? 1 : 0;
+    tails += noise.heaviestTails() > 0.0 ? 1 : 0;
     ++count;
   }
   EXPECT_GE(inside, 7) << "of " << count;
