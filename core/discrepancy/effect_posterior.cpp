@@ -698,7 +698,8 @@ EffectPosterior PosteriorSearch::run(const JobContext& job, const ModelTerm* off
   };
   best = refined(std::move(best));
   // In the order of what each brings, the user's first. One that brings nothing any more leaves, and one in whose place
-  // another turns out to be better, both with all lags refitted, makes room for it.
+  // another turns out to be better, both with all lags refitted, makes room for it; so does one that holds a simpler
+  // effect which the data do not tell from it.
   constexpr int most_replaced = 4;  // at one number of effects
   int replaced = 0;
   std::vector<SlotEvidence> slots;
@@ -706,14 +707,24 @@ EffectPosterior PosteriorSearch::run(const JobContext& job, const ModelTerm* off
     slots.clear();
     std::size_t idle = best.fit.terms.size();
     const Alternative* better = nullptr;
+    double most_lead = 0.0;
     slots.reserve(best.fit.terms.size());
     for (std::size_t t = 0; t < best.fit.terms.size(); ++t) {
       slots.push_back(slotOf(best, t, job, visited));
       const auto& ids = options_->accept;
       const bool forced = std::find(ids.begin(), ids.end(), best.fit.terms[t].effect->id) != ids.end();
       if (forced) continue;
+      double unrelated = -1e300;
       for (const Alternative& a : slots[t].others) {
-        if (a.rejected || a.evidence < (better == nullptr ? best.evidence + 1e-3 : better->evidence)) continue;
+        if (!a.rejected && !a.contained && !a.container) unrelated = std::max(unrelated, a.evidence);
+      }
+      for (const Alternative& a : slots[t].others) {
+        if (a.rejected) continue;
+        double lead = a.evidence - best.evidence - 1e-3;
+        if (a.contained && a.evidence > unrelated) lead += priors_.wider_lead;
+        if (a.container) lead -= priors_.wider_lead;
+        if (lead < most_lead) continue;
+        most_lead = lead;
         better = &a;
       }
       if (slots[t].delta_evidence > 0.0) continue;
