@@ -41,7 +41,7 @@ CommandResult check(const EvaluateArguments& a, JobContext& job) {
   result.json["to_take_again"] = bad;
   result.summary +=
       bad == 0 ? fmt::format("{} checked: all can be used\n", countOf(captures.size(), "image"))
-               : fmt::format("{} of {} cannot be used: take {} again, or exclude {}\n", bad,
+               : fmt::format("{} of {} failed the check: take {} again, or exclude {}\n", bad,
                              countOf(captures.size(), "image"), bad == 1 ? "it" : "them", bad == 1 ? "it" : "them");
   if (bad > 0) result.exit_status = NotGoodEnough;
   return result;

@@ -50,7 +50,7 @@ nlohmann::json freeFormJson(const FreeForm& form) {
   return out;
 }
 
-nlohmann::json scanJson(const ScanResult& s, const std::string& axis, const Eigen::Matrix<double, 6, 6>& calibration) {
+nlohmann::json scanJson(const ScanResult& s, const std::string& axis) {
   nlohmann::json parameters = nlohmann::json::object();
   nlohmann::json at_artefact = nlohmann::json::object();
   nlohmann::json not_observed = nlohmann::json::array();
@@ -65,8 +65,7 @@ nlohmann::json scanJson(const ScanResult& s, const std::string& axis, const Eige
     const SmallError near{s.registration.translation_mm, s.registration.rotation_rad};
     at_artefact[fmt::format("{}_{}", toString(k), unitOf(k))] = {
         {"value", seen ? nlohmann::json(valueOf(near, k)) : nlohmann::json(nullptr)},
-        {"standard_uncertainty", seen ? jsonNumber(f * std::sqrt(s.registration.covariance(i, i) + calibration(i, i)))
-                                      : nlohmann::json(nullptr)},
+        {"standard_uncertainty", seen ? jsonNumber(f * s.standardUncertaintyAtArtefact(i)) : nlohmann::json(nullptr)},
         {"of_registration", seen ? jsonNumber(f * s.registration.standardUncertainty(i)) : nlohmann::json(nullptr)},
         {"white_noise_bound",
          seen ? jsonNumber(f * std::sqrt(s.registration.white_covariance(i, i))) : nlohmann::json(nullptr)}};
@@ -107,7 +106,6 @@ InstrumentEvaluation observationsOfScans(const Campaign& campaign, const ScanEva
   nlohmann::json cycles = nlohmann::json::array();
   for (std::size_t n = 0; n < evaluation.scans.size(); ++n) {
     const ScanResult& s = evaluation.scans[n];
-    const Eigen::Matrix<double, 6, 6> calibration = s.calibration_spread * s.calibration_spread.transpose();
     for (const Component k : all_components) {
       const int i = static_cast<int>(k);
       if (!std::isfinite(s.registration.covariance(i, i))) continue;
@@ -128,7 +126,7 @@ InstrumentEvaluation observationsOfScans(const Campaign& campaign, const ScanEva
       out.observations.rows.push_back(o);
       rows.push_back({n, i});
     }
-    cycles.push_back(scanJson(s, evaluation.axis, calibration));
+    cycles.push_back(scanJson(s, evaluation.axis));
   }
   ScanNoise noise = noiseOfScans(evaluation.scans, rows);
   out.observations.shared = std::move(noise.shared);

@@ -498,6 +498,10 @@ void warnChangesOfShape(ScanEvaluation& evaluation) {
 
 }  // namespace
 
+double ScanResult::standardUncertaintyAtArtefact(int i) const {
+  return std::sqrt(registration.covariance(i, i) + calibration_spread.row(i).squaredNorm());
+}
+
 ScanEvaluation evaluateScanCampaign(const Campaign& campaign, const std::string& scan_model, JobContext& job) {
   std::vector<ScanCapture> captures = readScanList(campaign);
   std::erase_if(captures, [&](const ScanCapture& c) { return campaign.excluded_captures.contains(c.cloud); });

@@ -42,6 +42,10 @@ struct ScanResult {
   /// calibrationSpread of (u, w): machine axes, as everything here but what is said to be in the profiler's frame.
   Eigen::Matrix<double, 6, 6> calibration_spread = Eigen::Matrix<double, 6, 6>::Zero();
   std::vector<std::string> warnings;
+
+  /// Of the displacement (0 to 2, mm) and rotation (3 to 5, rad) at the artefact: of the registration and of the
+  /// calibration of the mounting together; infinite where the surface does not show it.
+  [[nodiscard]] double standardUncertaintyAtArtefact(int i) const;
 };
 
 struct ScanEvaluation {

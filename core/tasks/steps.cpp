@@ -117,7 +117,7 @@ StepReport capture(const TaskGraph& graph, const CaptureCounts& counts) {
                                           ? "The captures checked here can be used; those of other instruments are "
                                             "judged when they are evaluated."
                                           : "All captures are checked.");
-  return {StepState::Attention, counted(found, "cannot be used. Take them again, or exclude them."), found.bad,
+  return {StepState::Attention, counted(found, "failed the check. Take them again, or exclude them."), found.bad,
           found.all};
 }
 

@@ -3327,8 +3327,8 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>lässt sich nicht abonnieren</translation>
     </message>
     <message>
-        <source>cannot be used. Take them again, or exclude them.</source>
-        <translation>sind unbrauchbar. Wiederholen oder ausschließen.</translation>
+        <source>failed the check. Take them again, or exclude them.</source>
+        <translation>haben die Prüfung nicht bestanden. Wiederholen oder ausschließen.</translation>
     </message>
     <message>
         <source>cannot be written as a video.</source>
@@ -8415,8 +8415,8 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>thermische Ausdehnung entlang {} über den Tisch</translation>
     </message>
     <message>
-        <source>{} of {} captures cannot be used. Take them again, or exclude them.</source>
-        <translation>{} von {} Aufnahmen sind unbrauchbar. Wiederholen oder ausschließen.</translation>
+        <source>{} of {} captures failed the check. Take them again, or exclude them.</source>
+        <translation>{} von {} Aufnahmen haben die Prüfung nicht bestanden. Wiederholen oder ausschließen.</translation>
     </message>
     <message>
         <source>({}, {:g} {} per {})</source>
@@ -14874,10 +14874,10 @@ einsatz</translation>
         </translation>
     </message>
     <message numerus="yes">
-        <source>%n of %1 captures cannot be used (%2). Take them again, or exclude them: the others are evaluated without them.</source>
+        <source>%n of %1 captures failed the check (%2). Take them again, or exclude them: what decodes of them is evaluated as it is.</source>
         <translation>
-            <numerusform>%n von %1 Aufnahmen ist unbrauchbar (%2). Wiederholen oder ausschließen: die übrigen werden ohne sie ausgewertet.</numerusform>
-            <numerusform>%n von %1 Aufnahmen sind unbrauchbar (%2). Wiederholen oder ausschließen: die übrigen werden ohne sie ausgewertet.</numerusform>
+            <numerusform>%n von %1 Aufnahmen hat die Prüfung nicht bestanden (%2). Wiederholen oder ausschließen: was sich davon dekodieren lässt, wird ausgewertet, wie es ist.</numerusform>
+            <numerusform>%n von %1 Aufnahmen haben die Prüfung nicht bestanden (%2). Wiederholen oder ausschließen: was sich davon dekodieren lässt, wird ausgewertet, wie es ist.</numerusform>
         </translation>
     </message>
     <message>

@@ -154,10 +154,10 @@
         </translation>
     </message>
     <message numerus="yes">
-        <source>%n of %1 captures cannot be used (%2). Take them again, or exclude them: the others are evaluated without them.</source>
+        <source>%n of %1 captures failed the check (%2). Take them again, or exclude them: what decodes of them is evaluated as it is.</source>
         <translation>
-            <numerusform>%n of %1 captures cannot be used (%2). Take it again, or exclude it: the others are evaluated without it.</numerusform>
-            <numerusform>%n of %1 captures cannot be used (%2). Take them again, or exclude them: the others are evaluated without them.</numerusform>
+            <numerusform>%n of %1 captures failed the check (%2). Take it again, or exclude it: what decodes of it is evaluated as it is.</numerusform>
+            <numerusform>%n of %1 captures failed the check (%2). Take them again, or exclude them: what decodes of them is evaluated as it is.</numerusform>
         </translation>
     </message>
 </context>

@@ -33,7 +33,7 @@ TOKEN = re.compile(r'//[^\n]*|/\*.*?\*/|R"(\w*)\((?:.*?)\)\1"|"((?:[^"\\\n]|\\.)
                    r'|[A-Za-z_]\w*|\d[\w.\']*|::|->|<<|\S', re.S)
 # Sentences that core puts together in more than one place.
 COMPOSED = ("squareness of {} to {}", "{} = {}, before {}",
-            "{} of {} captures cannot be used. Take them again, or exclude them.")
+            "{} of {} captures failed the check. Take them again, or exclude them.")
 # Words that stand alone.
 ALONE = ("push broom", "α about X", "β about Y", "γ about Z", "and", "or", "measured", "simulation", "one", "two", "three", "four", "five", "focus", "spindle changed", "re-levelled", "crash", "repair", "moved", "note", "tilt", "rotation", "Signatures", "Where simulation and measurement disagree", "converged", "degenerate", "no convergence", "rejected", "artefact", "bed", "column", "coolant", "instrument", "room",
          "table", "rotary drive")

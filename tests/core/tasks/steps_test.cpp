@@ -31,7 +31,7 @@ TEST(Steps, ACaptureThatCannotBeUsedIsNotGreen) {
   EXPECT_EQ(step.state, StepState::Attention);
   EXPECT_EQ(step.count, 2U);
   EXPECT_EQ(step.of, 5U);
-  EXPECT_THAT(step.sentence, HasSubstr("2 of 5 captures cannot be used"));
+  EXPECT_THAT(step.sentence, HasSubstr("2 of 5 captures failed the check"));
   for (int i = 0; i < 2; ++i) s.session_.exclude(s.id_, "captures/images/" + std::to_string(i) + ".jpg", "blurred");
   EXPECT_THAT(s.step(StepId::Capture).sentence, HasSubstr("2 exclusions more"));
   s.run("check", checkOf(5, 2));

@@ -87,7 +87,7 @@ std::span<const char* const> spindrift::gui::core_formats::tasks() noexcept {
     QT_TRANSLATE_NOOP("core", "a list of at least {} entries"),
     QT_TRANSLATE_NOOP("core", "a row from 0 to {}"),
     QT_TRANSLATE_NOOP("core", "cannot be decided"),
-    QT_TRANSLATE_NOOP("core", "cannot be used. Take them again, or exclude them."),
+    QT_TRANSLATE_NOOP("core", "failed the check. Take them again, or exclude them."),
     QT_TRANSLATE_NOOP("core", "files of the campaign"),
     QT_TRANSLATE_NOOP("core", "in progress"),
     QT_TRANSLATE_NOOP("core", "lists no touches."),

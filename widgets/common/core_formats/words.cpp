@@ -108,7 +108,7 @@ std::span<const char* const> spindrift::gui::core_formats::words() noexcept {
     QT_TRANSLATE_NOOP("core", "{} items"),
     QT_TRANSLATE_NOOP("core", "{} measuring cycles"),
     QT_TRANSLATE_NOOP("core", "{} observations"),
-    QT_TRANSLATE_NOOP("core", "{} of {} captures cannot be used. Take them again, or exclude them."),
+    QT_TRANSLATE_NOOP("core", "{} of {} captures failed the check. Take them again, or exclude them."),
     QT_TRANSLATE_NOOP("core", "{} pictures"),
     QT_TRANSLATE_NOOP("core", "{} planned items"),
     QT_TRANSLATE_NOOP("core", "{} points are"),

@@ -241,12 +241,11 @@ void FiducialCapturePage::showBad(const std::vector<const ListedCapture*>& bad) 
     fillTable();
     select(image);
   });
-  callout()->show(Tone::Attention,
-                  tr("%n of %1 captures cannot be used (%2). Take them again, or exclude them: the others "
-                     "are evaluated without them.",
-                     nullptr, static_cast<int>(bad.size()))
-                      .arg(captures_.size())
-                      .arg(firstOf(names)));
+  callout()->show(Tone::Attention, tr("%n of %1 captures failed the check (%2). Take them again, or exclude them: what "
+                                      "decodes of them is evaluated as it is.",
+                                      nullptr, static_cast<int>(bad.size()))
+                                       .arg(captures_.size())
+                                       .arg(firstOf(names)));
 }
 
 void FiducialCapturePage::fillTable() {

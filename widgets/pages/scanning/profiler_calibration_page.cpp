@@ -190,7 +190,7 @@ void ProfilerCalibrationPage::showScans(const ScanEvaluation& evaluation) {
       const double factor = first == 0 ? um_per_mm : urad_per_rad;
       for (int i = first; i < first + 3; ++i) {
         const double value = i < 3 ? s.registration.translation_mm(i) : s.registration.rotation_rad(i - 3);
-        const double sigma = s.registration.standardUncertainty(i);
+        const double sigma = s.standardUncertaintyAtArtefact(i);
         if (s.reference || !std::isfinite(sigma)) {
           row.cells.push_back(dashCell());
           row.cells.back().tip =

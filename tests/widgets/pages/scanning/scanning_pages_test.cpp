@@ -7,10 +7,12 @@
 
 #include "core/base/atomic_file.h"
 #include "core/scanning/cloud_file.h"
+#include "core/scanning/scan_evaluation.h"
 #include "core/simulation/virtual_profiler.h"
 #include "tests/widgets/support/page_test.h"
 #include "widgets/commands/commands.h"
 #include "widgets/common/parts.h"
+#include "widgets/models/cells.h"
 #include "widgets/models/rows_model.h"
 #include "widgets/pages/scanning/axis_errors_page.h"
 #include "widgets/pages/scanning/profiler_calibration_page.h"
@@ -232,6 +234,22 @@ TEST_F(ScanningPages, CalibrationShowsWhatItCannotDetermine) {
   const Series& rim = page->residuals()->series().front();
   for (const double v : rim.y) squares += v * v;
   EXPECT_LT(std::sqrt(squares / static_cast<double>(rim.y.size())), 40.0);
+  // What the mounting leaves uncertain is part of every displacement.
+  JobContext job;
+  const ScanEvaluation evaluation = evaluateScanCampaign(Campaign::read(folder_ / "campaign"), "rigid", job);
+  bool widened = false;
+  for (const ScanResult& s : evaluation.scans) {
+    if (s.reference) continue;
+    const std::vector<Cell> shown = cells(*page->registrations(), QString::fromStdString(s.capture.cloud));
+    for (int i = 0; i < 3; ++i) {
+      const double sigma = s.standardUncertaintyAtArtefact(i);
+      if (!std::isfinite(sigma)) continue;
+      EXPECT_EQ(shown[static_cast<std::size_t>(i + 1)].text,
+                quantityCell(1e3 * s.registration.translation_mm(i), 1e3 * sigma).text);
+      widened = widened || sigma > 1.2 * s.registration.standardUncertainty(i);
+    }
+  }
+  EXPECT_TRUE(widened);
   exportAll();
 }
 
