@@ -188,6 +188,7 @@ void weigh(Analysis& a, const DiscrepancyInput& input, ResidualProblem& problem,
   const ResidualProblem::NuisancePart first = problem.nuisancePart(problem.y);
   const NoiseModel start = estimateNoise(problem, problem.y - first.values, false);
   const double clock_at_start_s = a.clock_offset_s;
+  const double clock_uncertainty_at_start_s = a.clock_uncertainty_s;
   problem.setNoise(start);
   alternate(a, input, problem, options, priors, exact, off, job);
   // A simulator's own hypotheses do not hide in the noise: each is fitted to what it predicts.
@@ -208,6 +209,7 @@ void weigh(Analysis& a, const DiscrepancyInput& input, ResidualProblem& problem,
   // A clock that was moved to fit what was found in place of the missing one would hide it again.
   a.drivers->shiftClock(clock_at_start_s - a.clock_offset_s);
   a.clock_offset_s = clock_at_start_s;
+  a.clock_uncertainty_s = clock_uncertainty_at_start_s;
   alternate(a, input, problem, options, priors, exact, off, job);
   const auto& found = a.posterior.fit.terms;
   // Shifts have any course; what chooses its own onset is none the more probable for following them.

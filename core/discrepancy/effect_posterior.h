@@ -55,14 +55,14 @@ struct DiscrepancyPriors {
   /// Standard deviation of the relative error of one part alone that is far off, and how probable that is.
   double far_part_error = 0.3;
   double far_part = 0.25;
+  /// Evidence (2 ln of the odds) by which an effect that holds a simpler one must be the more probable one: up to odds
+  /// of 3 the data do not tell the two apart, and the simpler one is named (EFFECTS.md).
+  double wider_lead = 2.2;
   /// Odds of an effect that holds a simpler one as a special case, beside that one; and the part of its amplitude by
   /// which the simpler one may be off in just the way that the wider one can follow.
   double wider = 0.1;
   double wider_error = 0.06;
   double refinement_error = 0.14;  ///< the same of a refinement (a screw that is warmer in one place)
-  /// Evidence (2 ln of the odds) by which it must be the more probable one: up to odds of 3, the data do not tell the
-  /// two apart, and the simpler one is named.
-  double wider_lead = 2.2;
   /// The same of two effects: part of the amplitude of the others, where and when it acts, that a further effect may
   /// imitate, so that one smaller than this needs more; of one that chooses its own onset.
   double further_error = 0.07;

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A body never moves as the formula of an effect alone: a rotary table that drifts also tilts a little. That is no
 // second cause.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdint>
 
 #include "core/discrepancy/discrepancy.h"
@@ -72,6 +74,26 @@ TEST(BesideTheFormula, WhatStandsInForADriverNeedsNoSecondEffect) {
     }
     EXPECT_EQ(namesIn(result), "ambient.drift.x") << "at number " << c.number << " of " << c.base;
   }
+}
+
+TEST(BesideTheFormula, OfTwoThatTheDataDoNotTellApartTheSimplerIsNamed) {
+  // Growth of the spindle, and heat that depends on a position, which holds it: three of these shared what the data
+  // show, and nothing was named.
+  StudyOptions study;
+  study.kind = StudyKind::Two;
+  study.strength = 4.0;
+  study.turn = 660'202 * 7 + 23 * 11 + 25;
+  const StudyCase made = studyCase(study, 660'202'230'025ULL);
+  ASSERT_EQ(made.hidden, (std::vector<std::string>{"squareness.drift.c0y", "spindle.growth.z"}));
+  JobContext job;
+  DiscrepancyOptions options;
+  options.suggest = false;
+  const DiscrepancyResult result = findDiscrepancy(study::inputOf(simulateStudy(made, job).campaign), options, job);
+  const auto growth = std::find_if(result.effects.begin(), result.effects.end(),
+                                   [](const FoundEffect& e) { return e.id == "spindle.growth.z"; });
+  ASSERT_NE(growth, result.effects.end()) << namesIn(result);
+  EXPECT_THAT(growth->containers, testing::Contains("heat_source.position.y"));
+  EXPECT_EQ(result.effects.size(), 2U);
 }
 
 TEST(BesideTheFormula, WhatADriftMovesAlongAnotherAxisIsToldAndGetsNoName) {
