@@ -67,6 +67,20 @@ class DistanceTable {
       }
     }
   }
+  /// The smallest value along its edges.
+  [[nodiscard]] double leastAtBorder() const {
+    const std::size_t rows = values_.size() / static_cast<std::size_t>(columns_);
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t j = 0; j < rows; ++j) {
+      const float* line = &values_[j * static_cast<std::size_t>(columns_)];
+      if (j == 0 || j + 2 >= rows) {
+        least = std::min<double>(least, *std::min_element(line, line + columns_));
+      } else {
+        least = std::min<double>({least, line[0], line[columns_ - 2], line[columns_ - 1]});
+      }
+    }
+    return least;
+  }
   [[nodiscard]] bool covers(double x, double y) const { return std::abs(x) < half_x_ && std::abs(y) < half_y_; }
   [[nodiscard]] double at(double x, double y) const {
     const double u = x + half_x_;
@@ -86,10 +100,10 @@ class DistanceTable {
   std::vector<float> values_;
 };
 
-/// Signed distance (um, < 0 inside) to the nearest mark of the whole pattern, exact within `reach_um` of an edge.
+/// Tables of the signed distance (um, < 0 inside) to the marks of a pattern.
 class ArtworkDistance {
  public:
-  static constexpr double reach_um = 8.0;
+  static constexpr double reach_um = 8.0;  ///< around a ring, where its table still knows
   static constexpr double far_um = 1e3;
 
   explicit ArtworkDistance(FiducialPattern artwork) : pattern_(std::move(artwork)) {
@@ -105,38 +119,109 @@ class ArtworkDistance {
         for (const PatternStroke& s : pattern.digits[digit]) best = std::min(best, distanceToStroke(s, {x, y}));
         return best - 0.5 * pattern.digit_line_width_um;
       });
+      known_um_ = std::min(known_um_, digits_[digit].leastAtBorder());
     }
+    for (const double semi_axis_um : {pattern.semi_axis_x_um, pattern.semi_axis_y_um})
+      known_um_ = std::min(known_um_, 0.5 * pattern.pitch_um - semi_axis_um - half);
   }
 
-  [[nodiscard]] double at(const Eigen::Vector2d& p) const {
-    double best = far_um;
-    const int column = pattern_.first_column + nearest(p.x() / pattern_.pitch_um);
-    const int row = pattern_.first_row + nearest(p.y() / pattern_.pitch_um);
-    if (pattern_.contains(row, column)) {
-      const Eigen::Vector2d q = p - pattern_.ellipseCentre(row, column);
-      if (ring_.covers(q.x(), q.y())) best = ring_.at(q.x(), q.y());
-      if (std::abs(q.x()) < 2 * pattern_.digit_offset_x_um && std::abs(q.y()) < 2 * pattern_.digit_offset_y_um) {
-        const int k = (q.y() >= 0.0 ? 0 : 2) + (q.x() >= 0.0 ? 1 : 0);
-        const Eigen::Vector2d d = q - pattern_.digitCentre(k);
-        const DistanceTable& table = digits_[FiducialPattern::digitsOf(row, column)[k]];
-        if (table.covers(d.x(), d.y())) best = std::min(best, table.at(d.x(), d.y()));
-      }
-    }
-    const int i = nearest((p.x() - pattern_.circle_offset_x_um) / pattern_.pitch_um);
-    const int j = nearest((p.y() - pattern_.circle_offset_y_um) / pattern_.pitch_um);
-    if (i >= pattern_.first_circle_column && i <= pattern_.last_circle_column && j >= pattern_.first_circle_row &&
-        j <= pattern_.last_circle_row) {
-      best = std::min(best, (p - pattern_.circleCentre(i, j)).norm() - pattern_.circle_radius_um);
-    }
-    return best;
-  }
-
+  [[nodiscard]] const FiducialPattern& pattern() const { return pattern_; }
+  /// How far from every place no mark is missed: a place sees its own ellipse, digit and circle alone.
+  [[nodiscard]] double knownUm() const { return std::max(0.0, known_um_); }
+  [[nodiscard]] const DistanceTable& ring() const { return ring_; }
   [[nodiscard]] const DistanceTable& digit(int d) const { return digits_[d]; }
 
  private:
   FiducialPattern pattern_;
   DistanceTable ring_;
   std::array<DistanceTable, 10> digits_;
+  double known_um_ = reach_um - 1.0;
+};
+
+/// Looks up an artwork along a path: the ellipse and the circle that a place belongs to are those of the place before,
+/// mostly.
+class ArtworkCursor {
+ public:
+  explicit ArtworkCursor(const ArtworkDistance& artwork) : artwork_(artwork), pattern_(artwork.pattern()) {}
+
+  /// Signed distance to the nearest mark (um, < 0 inside).
+  double at(double x, double y) {
+    goTo(x, y);
+    double ring = ArtworkDistance::far_um, digit = ArtworkDistance::far_um, circle = ArtworkDistance::far_um;
+    digit_ = nullptr;
+    if (ellipse_) {
+      const double u = x - ellipse_x_;
+      const double v = y - ellipse_y_;
+      if (artwork_.ring().covers(u, v)) ring = artwork_.ring().at(u, v);
+      if (std::abs(u) < 2 * pattern_.digit_offset_x_um && std::abs(v) < 2 * pattern_.digit_offset_y_um) {
+        const double from_x = u >= 0.0 ? pattern_.digit_offset_x_um : -pattern_.digit_offset_x_um;
+        const double from_y = v >= 0.0 ? pattern_.digit_offset_y_um : -pattern_.digit_offset_y_um;
+        const DistanceTable& table = *digits_[(v >= 0.0 ? 0 : 2) + (u >= 0.0 ? 1 : 0)];
+        if (table.covers(u - from_x, v - from_y)) {
+          digit = table.at(u - from_x, v - from_y);
+          digit_ = &table;
+          digit_x_ = ellipse_x_ + from_x;
+          digit_y_ = ellipse_y_ + from_y;
+        }
+      }
+    }
+    if (circle_) {
+      const double u = x - circle_x_;
+      const double v = y - circle_y_;
+      circle = std::sqrt(u * u + v * v) - pattern_.circle_radius_um;
+    }
+    near_ = {ring, digit, circle};
+    return std::min({ring, digit, circle});
+  }
+
+  /// The same of a place no further than `reach_um` from the last one that was looked at, where the distance is below
+  /// `reach_um`; elsewhere anything above it.
+  [[nodiscard]] double besideIt(double x, double y, double reach_um) const {
+    double best = ArtworkDistance::far_um;
+    const double seen_um = 2.5 * reach_um;
+    if (near_[0] < seen_um) best = artwork_.ring().at(x - ellipse_x_, y - ellipse_y_);
+    if (near_[1] < seen_um) best = std::min(best, digit_->at(x - digit_x_, y - digit_y_));
+    if (near_[2] < seen_um) {
+      const double u = x - circle_x_;
+      const double v = y - circle_y_;
+      best = std::min(best, std::sqrt(u * u + v * v) - pattern_.circle_radius_um);
+    }
+    return best;
+  }
+
+ private:
+  void goTo(double x, double y) {
+    const double half = 0.4999 * pattern_.pitch_um;  // nearer to its centre than that it is the same for sure
+    if (!(std::abs(x - ellipse_x_) < half && std::abs(y - ellipse_y_) < half)) {
+      const int column = pattern_.first_column + nearest(x / pattern_.pitch_um);
+      const int row = pattern_.first_row + nearest(y / pattern_.pitch_um);
+      const Eigen::Vector2d centre = pattern_.ellipseCentre(row, column);
+      ellipse_x_ = centre.x();
+      ellipse_y_ = centre.y();
+      ellipse_ = pattern_.contains(row, column);
+      const std::array<int, 4> digits = FiducialPattern::digitsOf(row, column);
+      for (std::size_t k = 0; ellipse_ && k < digits.size(); ++k) digits_[k] = &artwork_.digit(digits[k]);
+    }
+    if (!(std::abs(x - circle_x_) < half && std::abs(y - circle_y_) < half)) {
+      const int i = nearest((x - pattern_.circle_offset_x_um) / pattern_.pitch_um);
+      const int j = nearest((y - pattern_.circle_offset_y_um) / pattern_.pitch_um);
+      const Eigen::Vector2d centre = pattern_.circleCentre(i, j);
+      circle_x_ = centre.x();
+      circle_y_ = centre.y();
+      circle_ = i >= pattern_.first_circle_column && i <= pattern_.last_circle_column &&
+                j >= pattern_.first_circle_row && j <= pattern_.last_circle_row;
+    }
+  }
+
+  const ArtworkDistance& artwork_;
+  const FiducialPattern& pattern_;
+  bool ellipse_ = false, circle_ = false;  ///< whether there is one at that place of the grid
+  double ellipse_x_ = std::numeric_limits<double>::infinity(), ellipse_y_ = 0.0;
+  double circle_x_ = std::numeric_limits<double>::infinity(), circle_y_ = 0.0;
+  std::array<const DistanceTable*, 4> digits_{};
+  std::array<double, 3> near_{};  ///< ring, digit and circle of the last place
+  const DistanceTable* digit_ = nullptr;
+  double digit_x_ = 0.0, digit_y_ = 0.0;
 };
 
 /// The tables of a pattern, kept from image to image: they take longer than an image.
@@ -166,8 +251,9 @@ void paintPattern(Canvas& canvas, const ArtworkDistance& artwork, const PatternM
   const double cell_px = 1.0 / canvas.fine;
   const double cell_um = cell_px * map.pixel_length_um;
   constexpr int parts = 4;
-  constexpr double known_um = 5.0;
+  const double known_um = artwork.knownUm();
   const double part_um = cell_um / parts;
+  ArtworkCursor cursor(artwork);
   // PatternMap::patternOf with the constant parts taken out of the loop.
   const double turn_c = std::cos(map.tilt_rad);
   const double turn_s = std::sin(map.tilt_rad);
@@ -176,8 +262,9 @@ void paintPattern(Canvas& canvas, const ArtworkDistance& artwork, const PatternM
     y -= map.centre_y_px;
     if (map.k1_per_px2 != 0.0) {
       const double q = map.k1_per_px2 * (x * x + y * y);
-      double factor = 1.0 - q;
-      for (int k = 0; k < 3; ++k) {
+      double factor = 1.0 - q * (1.0 - q * (3.0 - 12.0 * q));
+      const int steps = std::abs(q) < 0.005 ? 1 : 3;
+      for (int k = 0; k < steps; ++k) {
         factor -= (factor * (1.0 + q * factor * factor) - 1.0) / (1.0 + 3.0 * q * factor * factor);
       }
       x *= factor;
@@ -192,10 +279,10 @@ void paintPattern(Canvas& canvas, const ArtworkDistance& artwork, const PatternM
     float* line = &canvas.level[static_cast<std::size_t>(j) * canvas.width];
     for (int i = 0; i < canvas.width; ++i) {
       const Eigen::Vector2d p = patternOf((i + 0.5) * cell_px - 0.5, (j + 0.5) * cell_px - 0.5);
-      const double d = artwork.at(p);
+      const double d = cursor.at(p.x(), p.y());
       double coverage = 0.0;
       if (std::abs(d) >= 0.75 * cell_um) {
-        // No edge is nearer than d (which is known to a few um): the next cells look the same.
+        // No edge is nearer than d, as far as it is known: the next cells look the same.
         const double free_um = 0.9 * std::min(std::abs(d), known_um) - 0.75 * cell_um;
         const int last = std::min(canvas.width - 1, i + std::max(0, static_cast<int>(free_um / cell_um)));
         if (d < 0.0) {
@@ -212,7 +299,7 @@ void paintPattern(Canvas& canvas, const ArtworkDistance& artwork, const PatternM
             const double a = u - 0.5 * (parts - 1);
             const double b = v - 0.5 * (parts - 1);
             const double y = -s * a + c * b;
-            const double part = artwork.at({p.x() + c * a + s * b, p.y() + (map.mirrored ? y : -y)});
+            const double part = cursor.besideIt(p.x() + c * a + s * b, p.y() + (map.mirrored ? y : -y), cell_um);
             coverage += std::clamp(0.5 - part / part_um, 0.0, 1.0);
           }
         }
@@ -339,18 +426,21 @@ std::vector<float> expose(const Canvas& canvas, int width, int height, double si
   for (int b = 0; b < fine; ++b) {
     for (int k = 0; k <= 2 * reach; ++k) kernel[b + k] += static_cast<float>(gauss[k] / (sum * fine));
   }
-  std::vector<float> rows(static_cast<std::size_t>(width) * canvas.height);
-  std::vector<float> padded(static_cast<std::size_t>(canvas.width) + 2 * reach + fine);
+  std::vector<float> rows(static_cast<std::size_t>(width) * canvas.height, 0.0F);
+  // The cells of a line by their place within the pixel: what a weight is multiplied with stands in a row then.
+  const int stride = width + (2 * reach + fine) / fine + 1;
+  std::vector<float> parted(static_cast<std::size_t>(stride) * fine);
   for (int j = 0; j < canvas.height; ++j) {
     const float* line = &canvas.level[static_cast<std::size_t>(j) * canvas.width];
-    for (std::size_t k = 0; k < padded.size(); ++k) {
-      padded[k] = line[std::clamp(static_cast<int>(k) - reach, 0, canvas.width - 1)];
+    for (int f = 0; f < fine; ++f) {
+      for (int m = 0; m < stride; ++m)
+        parted[static_cast<std::size_t>(f) * stride + m] = line[std::clamp(m * fine + f - reach, 0, canvas.width - 1)];
     }
-    for (int x = 0; x < width; ++x) {
-      float value = 0.0F;
-      const float* p = &padded[static_cast<std::size_t>(x) * fine];
-      for (std::size_t k = 0; k < kernel.size(); ++k) value += kernel[k] * p[k];
-      rows[static_cast<std::size_t>(j) * width + x] = value;
+    float* out = &rows[static_cast<std::size_t>(j) * width];
+    for (std::size_t k = 0; k < kernel.size(); ++k) {
+      const float* p = &parted[(k % fine) * stride + k / fine];
+      const float weight = kernel[k];
+      for (int x = 0; x < width; ++x) out[x] += weight * p[x];
     }
   }
   std::vector<float> image(static_cast<std::size_t>(width) * height, 0.0F);
@@ -439,16 +529,22 @@ GrayImage renderFiducial(const FiducialPattern& pattern, const MicroscopeScene& 
   GrayImage image(scene.width_px, scene.height_px);
   const double corner2 = 0.25 * (static_cast<double>(scene.width_px) * scene.width_px +
                                  static_cast<double>(scene.height_px) * scene.height_px);
+  std::vector<double> along_x(static_cast<std::size_t>(scene.width_px)), x2(along_x.size());
+  for (int x = 0; x < scene.width_px; ++x) {
+    const double u = x - 0.5 * (scene.width_px - 1);
+    along_x[x] = 1.0 + scene.gradient_x * u / scene.width_px;
+    x2[x] = u * u;
+  }
   for (int y = 0; y < scene.height_px; ++y) {
     const double v = y - 0.5 * (scene.height_px - 1);
+    const double along_y = scene.gradient_y * v / scene.height_px;
+    const float* line = &exposed[static_cast<std::size_t>(y) * scene.width_px];
     for (int x = 0; x < scene.width_px; ++x) {
-      const double u = x - 0.5 * (scene.width_px - 1);
-      const double light = scene.illumination_gain *
-                           (1.0 + scene.gradient_x * u / scene.width_px + scene.gradient_y * v / scene.height_px) *
-                           (1.0 - scene.vignetting * (u * u + v * v) / corner2);
-      double level = light * exposed[static_cast<std::size_t>(y) * scene.width_px + x];
+      double light = scene.illumination_gain * (along_x[x] + along_y);
+      if (scene.vignetting != 0.0) light *= 1.0 - scene.vignetting * (x2[x] + v * v) / corner2;
+      double level = light * line[x];
       if (scene.noise_level > 0.0) level += scene.noise_level * random.normal();
-      image.at(x, y) = static_cast<std::uint8_t>(std::lround(std::clamp(level, 0.0, 255.0)));
+      image.at(x, y) = static_cast<std::uint8_t>(std::clamp(level, 0.0, 255.0) + 0.5);
     }
   }
   if (scene.jpeg_quality > 0) return decodeImageBytes(encodeJpeg(image, scene.jpeg_quality), "virtual.jpg");
