@@ -85,6 +85,14 @@ void Drawing::endWindow() {
   shapes_.push_back(WindowEnd{});
 }
 
+Drawing Drawing::withTexts(const std::function<std::string(const std::string&)>& words) const {
+  Drawing out = *this;
+  for (Shape& shape : out.shapes_) {
+    if (auto* text = std::get_if<Text>(&shape)) text->text = words(text->text);
+  }
+  return out;
+}
+
 void Drawing::place(const Drawing& part, double x, double y) {
   for (Shape shape : part.shapes_) {
     std::visit([&](auto& s) { move(s, x, y); }, shape);

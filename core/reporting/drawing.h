@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -101,6 +102,9 @@ class Drawing {
   void picture(double x, double y, double width, double height, std::string jpeg);
   void beginWindow(double x, double y, double width, double height);
   void endWindow();
+
+  /// The same with other words at the same places.
+  [[nodiscard]] Drawing withTexts(const std::function<std::string(const std::string&)>& words) const;
 
   /// Another drawing as a part of this one, its upper left corner at (x, y).
   void place(const Drawing& part, double x, double y);

@@ -362,13 +362,15 @@ std::optional<EffectShape> effectShape(const Effect& effect, const EffectVolume&
   return shape;
 }
 
+std::string effectLegend(const EffectShape& shape) {
+  return fmt::format(
+      "{} for a gain of 1 {}: at most {:.3g} {}.",
+      shape.rotations ? "Rotation of the tool, as vectors," : "Deviation of the tool, drawn exaggerated,",
+      gainUnit(shape.gain_unit), shape.largest, shape.rotations ? "µrad" : "µm");
+}
+
 Drawing effectDrawing(const EffectShape& shape, const EffectDrawingOptions& options) {
-  const std::string legend =
-      !options.legend.empty() ? options.legend
-                              : fmt::format("{} for a gain of 1 {}: at most {:.3g} {}.",
-                                            shape.rotations ? "Rotation of the tool, as vectors,"
-                                                            : "Deviation of the tool, drawn exaggerated,",
-                                            gainUnit(shape.gain_unit), shape.largest, shape.rotations ? "µrad" : "µm");
+  const std::string legend = !options.legend.empty() ? options.legend : effectLegend(shape);
   const EffectLayout layout = layoutOf(shape, options, legend);
   Drawing drawing(options.width_px, options.height_px);
   drawing.rectangle(0.0, 0.0, options.width_px, options.height_px, options.ground);

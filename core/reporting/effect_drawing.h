@@ -72,6 +72,9 @@ struct EffectDrawingOptions {
   std::string unit;                    ///< behind them
 };
 
+/// What such a drawing says below it where nobody says otherwise: how it is drawn, and the largest deviation.
+[[nodiscard]] std::string effectLegend(const EffectShape& shape);
+
 /// In a row, or as a drawing has them (top view above the front view, side view beside it), whichever makes the views
 /// larger. All have one scale; an axis that is very short beside the others is stretched.
 [[nodiscard]] Drawing effectDrawing(const EffectShape& shape, const EffectDrawingOptions& options = {});

@@ -105,9 +105,28 @@ Report& Report::code(std::string_view text) {
   return *this;
 }
 
+Report& Report::append(const Report& other) {
+  blocks_.insert(blocks_.end(), other.blocks_.begin(), other.blocks_.end());
+  figures_ += other.figures_;
+  tables_ += other.tables_;
+  return *this;
+}
+
 Report& Report::withoutSignatures() {
   signed_ = false;
   return *this;
+}
+
+Report Report::translated(std::string_view language, std::function<std::string(const std::string&)> words,
+                          const std::function<ReportBlock(const ReportBlock&)>& block) const {
+  Report out(words(title_), words(subtitle_));
+  for (const ReportBlock& one : blocks_) out.blocks_.push_back(block(one));
+  out.figures_ = figures_;
+  out.tables_ = tables_;
+  out.signed_ = signed_;
+  out.language_ = language;
+  out.words_ = std::move(words);
+  return out;
 }
 
 }  // namespace spindrift

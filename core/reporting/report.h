@@ -3,6 +3,7 @@
 // is to be read; how it looks is up to the writers: one HTML file, or pages of a PDF.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -84,13 +85,23 @@ class Report {
   Report& facts(const ReportFacts& rows);
   Report& figure(Drawing drawing, std::string_view caption);
   Report& code(std::string_view text);
+  /// The blocks of another report at the end; their figures and tables keep their numbers.
+  Report& append(const Report& other);
   /// Not to be signed: the manual.
   Report& withoutSignatures();
+  /// All of it after `words`, each block by `block`, as a report in `language`; what writers add to it (the number of a
+  /// page, where to sign) goes through `words` as well. To be used through inLanguage() (report_language.h).
+  [[nodiscard]] Report translated(std::string_view language, std::function<std::string(const std::string&)> words,
+                                  const std::function<ReportBlock(const ReportBlock&)>& block) const;
 
   [[nodiscard]] const std::string& title() const { return title_; }
   [[nodiscard]] const std::string& subtitle() const { return subtitle_; }
   [[nodiscard]] const std::vector<ReportBlock>& blocks() const { return blocks_; }
   [[nodiscard]] bool isSigned() const { return signed_; }
+  /// ISO 639-1.
+  [[nodiscard]] const std::string& language() const { return language_; }
+  /// A text of a writer in the language of the report.
+  [[nodiscard]] std::string word(const std::string& english) const { return words_ ? words_(english) : english; }
   [[nodiscard]] int figureCount() const { return figures_; }
   [[nodiscard]] int tableCount() const { return tables_; }
 
@@ -101,6 +112,8 @@ class Report {
   int figures_ = 0;
   int tables_ = 0;
   bool signed_ = true;
+  std::string language_ = "en";
+  std::function<std::string(const std::string&)> words_;  ///< none: English
 };
 
 /// One self-contained HTML file: no scripts, nothing fetched, prints on A4.

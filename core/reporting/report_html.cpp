@@ -108,10 +108,10 @@ std::string htmlOf(const Report& report) {
   HtmlWriter body;
   for (const ReportBlock& block : report.blocks()) std::visit(body, block);
   return fmt::format(
-      "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
+      "<!DOCTYPE html>\n<html lang=\"{4}\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
       "content=\"width=device-width\"><title>{0}</title><style>{1}</style></head>\n<body><main>\n<header><h1>{0}</h1>"
       "<p>{2}</p></header>\n{3}</main></body></html>\n",
-      escapedXml(report.title()), style, escapedXml(report.subtitle()), body.out);
+      escapedXml(report.title()), style, escapedXml(report.subtitle()), body.out, escapedXml(report.language()));
 }
 
 }  // namespace spindrift

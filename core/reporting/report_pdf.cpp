@@ -178,13 +178,14 @@ class Setter {
   }
 
   /// Where people sign.
-  void signatures() {
-    (*this)(HeadingBlock{1, "Signatures"});
+  void signatures(const Report& report) {
+    (*this)(HeadingBlock{1, report.word("Signatures")});
     for (const char* who : {"Measured by", "Checked by"}) {
       constexpr double height = 62.0;
-      add(height, 6.0, true, [this, who](cairo_t* c) {
+      add(height, 6.0, true, [this, who = report.word(who), &report](cairo_t* c) {
         double x = 0.0;
-        for (const auto& [name, part] : {std::pair{who, 0.42}, {"Date", 0.18}, {"Signature", 0.40}}) {
+        for (const auto& [name, part] :
+             {std::pair{who, 0.42}, {report.word("Date"), 0.18}, {report.word("Signature"), 0.40}}) {
           show(c, layout(name, small_px, true, part * text_width), x, 0.0, soft);
           x += part * text_width;
         }
@@ -444,7 +445,7 @@ void drawMargins(cairo_t* cairo, const Report& report, std::size_t page, std::si
     rule(60.0);
   }
   rule(page_height - 56.0);
-  line(report.subtitle(), fmt::format("Page {} of {}", page + 1, pages), page_height - 48.0);
+  line(report.subtitle(), report.word(fmt::format("Page {} of {}", page + 1, pages)), page_height - 48.0);
 }
 
 }  // namespace
@@ -466,7 +467,7 @@ ReportPdf pdfOf(const Report& report, const JobContext& job) {
       job.throwIfCancelled();
       std::visit(setter, block);
     }
-    if (report.isSigned()) setter.signatures();
+    if (report.isSigned()) setter.signatures(report);
     const auto pages = pagesOf(setter.pieces);
     for (std::size_t page = 0; page < pages.size(); ++page) {
       job.report(static_cast<double>(page) / static_cast<double>(pages.size()), "pages");

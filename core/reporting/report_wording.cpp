@@ -27,7 +27,7 @@ std::string printedUnitOf(Component component) {
   return printedUnit(unitOf(component));
 }
 
-ReportText withEffectTitles(std::string_view text) {
+ReportText withEffectTitles(std::string_view text, const std::function<std::string(const std::string&)>& words) {
   const auto inId = [](char c) { return inWord(c) || c == '.' || c == '-'; };
   ReportText out;
   std::string plain;
@@ -42,7 +42,8 @@ ReportText withEffectTitles(std::string_view text) {
     while (id_end > i && (text[id_end - 1] == '.' || text[id_end - 1] == '-')) --id_end;  // of the sentence
     const std::string_view id = text.substr(i, id_end - i);
     if (id.find('.') != std::string_view::npos && effectTitleOf(id)) {
-      out = out + ReportText(plain + effectTitle(id) + ' ') + ReportText::smallPrint(id);
+      const std::string title = effectTitle(id);
+      out = out + ReportText(plain + (words ? words(title) : title) + ' ') + ReportText::smallPrint(id);
       plain.clear();
     } else {
       plain += id;

@@ -3,6 +3,7 @@
 // titles, moments as people read them. Drivers, signals and parameters: core/machine/driver_words.h.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <string_view>
 
@@ -14,8 +15,10 @@ namespace spindrift {
 /// "µm" or "µrad".
 [[nodiscard]] std::string printedUnitOf(Component component);
 
-/// Every id of the catalogue of effects by its title, with the id small beside it.
-[[nodiscard]] ReportText withEffectTitles(std::string_view text);
+/// Every id of the catalogue of effects by its title, with the id small beside it; the titles in other words where
+/// there are such.
+[[nodiscard]] ReportText withEffectTitles(std::string_view text,
+                                          const std::function<std::string(const std::string&)>& words = {});
 /// The title of one effect with a capital, its id small beside it.
 [[nodiscard]] ReportText effectHeading(std::string_view id, std::string_view own_title = {});
 

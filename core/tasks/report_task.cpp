@@ -4,9 +4,12 @@
 #include <fmt/format.h>
 
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "core/base/atomic_file.h"
 #include "core/base/text.h"
+#include "core/reporting/report_language.h"
 #include "core/tasks/steps.h"
 #include "core/tasks/task_options.h"
 
@@ -94,19 +97,31 @@ ReportTask ReportTask::of(const TaskGraph& graph, const ExcludedItems& excluded)
 }
 
 nlohmann::json WrittenReport::json() const {
-  return {{"file", html}, {"pdf", pdf}, {"bytes", bytes}, {"figures", figures}, {"tables", tables}};
+  nlohmann::json out = {{"file", html}, {"pdf", pdf}, {"bytes", bytes}, {"figures", figures}, {"tables", tables}};
+  if (translation)
+    out["translations"] = {{translation->language, {{"file", translation->html}, {"pdf", translation->pdf}}}};
+  return out;
 }
 
 WrittenReport ReportTask::run(JobContext& job) const {
-  JobContext computing = job.part(0.0, 0.9);
+  JobContext computing = job.part(0.0, 0.8);
   const Report report = reportOfCampaign(*campaign, options, computing);
-  const std::string html = htmlOf(report);
-  const ReportPdf pdf = pdfOf(report, job.part(0.9, 1.0));
+  const std::optional<ReportLanguage>& language = offeredReportLanguage();
+  const auto ending = [&](bool translated) { return translated ? "." + language->code : std::string(); };
+  std::vector<std::pair<std::string, std::string>> files;  // all are made before the first is written
+  const auto make = [&](const Report& one, bool translated, const JobContext& part) {
+    files.emplace_back(name + ending(translated) + ".html", htmlOf(one));
+    files.emplace_back(name + ending(translated) + ".pdf", pdfOf(one, part).bytes);
+  };
+  make(report, false, job.part(0.8, 0.9));
+  if (language) make(inLanguage(report, *language), true, job.part(0.9, 1.0));
   job.throwIfCancelled();
   std::filesystem::create_directories((folder / name).parent_path());
-  writeFileAtomically(folder / (name + ".html"), html);
-  writeFileAtomically(folder / (name + ".pdf"), pdf.bytes);
-  return {name + ".html", name + ".pdf", html.size(), report.figureCount(), report.tableCount()};
+  for (const auto& [file, bytes] : files) writeFileAtomically(folder / file, bytes);
+  WrittenReport out{files[0].first,       files[1].first,      files[0].second.size(),
+                    report.figureCount(), report.tableCount(), {}};
+  if (language) out.translation = {language->code, files[2].first, files[3].first};
+  return out;
 }
 
 }  // namespace spindrift

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 
 #include "core/tasks/campaign_state.h"
@@ -19,7 +20,13 @@ struct WrittenReport {
   std::size_t bytes = 0;  ///< of the HTML
   int figures = 0;
   int tables = 0;
-  /// Payload of its result: file, pdf, bytes, figures, tables.
+  /// The same in another language, where the program that wrote it has one.
+  struct Translation {
+    std::string language;  ///< ISO 639-1
+    std::string html, pdf;
+  };
+  std::optional<Translation> translation;
+  /// Payload of its result: file, pdf, bytes, figures, tables, and translations: a language -> file, pdf.
   [[nodiscard]] nlohmann::json json() const;
 };
 
@@ -32,7 +39,8 @@ struct ReportTask {
 
   /// Of the graph's campaign as it is now. Writes the effects as edited into the session's folder.
   [[nodiscard]] static ReportTask of(const TaskGraph& graph, const ExcludedItems& excluded);
-  /// Writes the report as HTML and PDF into the session. Throws InputError and Cancelled; the files of an earlier
+  /// Writes the report as HTML and PDF into the session, in English and in the language that the program offers.
+  /// Throws InputError and Cancelled; the files of an earlier
   /// report stay then.
   [[nodiscard]] WrittenReport run(JobContext& job) const;
 };

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/workflows/manual.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <optional>
 #include <utility>
 
+#include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/discrepancy/catalogue.h"
 #include "core/discrepancy/effect_listing.h"
@@ -28,7 +32,9 @@ void addParameterMeanings(Report& report) {
   report.table({"Parameter", "Symbol", "ISO 230-1", "Meaning"}, std::move(rows));
 }
 
-void addEffects(Report& report) {
+/// What is put together from words and symbols is translated word by word, before it is put together.
+void addEffects(Report& report, const TextTranslation& translation = {}) {
+  const auto inWords = [&](const std::string& english) { return translation ? translation(english) : english; };
   report.section("Effects that the search knows");
   report.paragraph(
       "An effect is a driver (a column of the log, after its dynamics q(t)) times a gain times a shape. The figures "
@@ -40,16 +46,20 @@ void addEffects(Report& report) {
   for (const Effect& effect : everyEffect()) {
     report.subsection(ReportText(titleOf(effect)) + ReportText::smallPrint("  " + effect.id));
     report.paragraph(effect.physics);
-    const std::string drivers = driversInWords(driversOf(effect));
-    ReportFacts facts = {{"Shape", formulaInSymbols(effect.formula)},
+    const std::string drivers = driversInWords(driversOf(effect), translation);
+    ReportFacts facts = {{"Shape", formulaInSymbols(inWords(effect.formula))},
                          {"Driven by", drivers.empty() ? std::string("nothing that is logged") : drivers},
                          {"Dynamics", std::string(dynamicsInWords(dynamicsOf(effect)))}};
     if (!effect.contains.empty()) facts.emplace_back("Nested models", joinedList(effect.contains));
-    if (!effect.references.empty()) facts.emplace_back("References", joinedList(effect.references));
+    if (!effect.references.empty())
+      facts.emplace_back("References", ReportText::smallPrint(fmt::format("{}", fmt::join(effect.references, "; "))));
     report.facts(facts);
     std::optional<EffectShape> shape = effectShape(effect, {});
     if (!shape) shape = effectShape(effect, one_point);  // one that moves nothing else
-    if (shape) report.figure(effectDrawing(*shape), "shape of " + effect.id);
+    if (!shape) continue;
+    EffectDrawingOptions options;
+    options.legend = inWords(effectLegend(*shape));
+    report.figure(effectDrawing(*shape, options), "shape of " + effect.id);
   }
 }
 
@@ -63,6 +73,23 @@ Report manual(std::string_view commands) {
   addParameterMeanings(report);
   addEffects(report);
   addMarkdown(report, commands);
+  return report;
+}
+
+Report manualIn(const ReportLanguage& language) {
+  const std::vector<std::string>& chapters = manualChapters(language.code);
+  SPINDRIFT_ASSERT(!chapters.empty(), "somebody wrote the chapters in this language");
+  Report generated("Spindrift: the manual", "Version " SPINDRIFT_VERSION);
+  addParameterMeanings(generated);
+  addEffects(generated, [&](std::string_view english) { return language.words(std::string(english)); });
+  generated.callout(CalloutKind::Note,
+                    "The reference of the files follows in English, as their keys are. That of the commands is in the "
+                    "English manual.");
+  Report report = inLanguage(Report(generated.title(), generated.subtitle()), language);
+  report.withoutSignatures();
+  for (const std::string& chapter : chapters) addMarkdown(report, chapter);
+  report.append(inLanguage(generated, language));
+  addMarkdown(report, filesMarkdown());
   return report;
 }
 

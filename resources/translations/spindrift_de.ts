@@ -9920,6 +9920,1602 @@ endgültig fehlgeschlagen: {}</translation>
         <source>the columns are separated by tabs; allowed: commas.</source>
         <translation>die Spalten sind durch Tabulatoren getrennt; zulässig: Kommas.</translation>
     </message>
+    <message>
+        <source>(added to the model)</source>
+        <translation>(dem Modell hinzugefügt)</translation>
+    </message>
+    <message>
+        <source>(the {} largest of {})</source>
+        <translation>(die {} größten von {})</translation>
+    </message>
+    <message>
+        <source>, at its bound</source>
+        <translation>, an seiner Grenze</translation>
+    </message>
+    <message>
+        <source>, beside what the effects explain</source>
+        <translation>, neben dem, was die Effekte erklären</translation>
+    </message>
+    <message>
+        <source>After</source>
+        <translation>Nachher</translation>
+    </message>
+    <message>
+        <source>Answer</source>
+        <translation>Antwort</translation>
+    </message>
+    <message>
+        <source>Artefact</source>
+        <translation>Prüfkörper</translation>
+    </message>
+    <message>
+        <source>Artefact / °C</source>
+        <translation>Prüfkörper / °C</translation>
+    </message>
+    <message>
+        <source>Axis</source>
+        <translation>Achse</translation>
+    </message>
+    <message>
+        <source>Axis against the certified distances at the temperature of the artefact; uncertainty of touches, certificate, coefficient and temperature</source>
+        <translation>Achse gegen die kalibrierten Abstände bei der Temperatur des Prüfkörpers; Unsicherheit von Antastungen, Kalibrierschein, Koeffizient und Temperatur</translation>
+    </message>
+    <message>
+        <source>Ball</source>
+        <translation>Kugel</translation>
+    </message>
+    <message>
+        <source>Before</source>
+        <translation>Vorher</translation>
+    </message>
+    <message>
+        <source>Beyond the noise</source>
+        <translation>Über das Rauschen hinaus</translation>
+    </message>
+    <message>
+        <source>Campaign</source>
+        <translation>Kampagne</translation>
+    </message>
+    <message>
+        <source>Capture</source>
+        <translation>Aufnahme</translation>
+    </message>
+    <message>
+        <source>Captures rejected</source>
+        <translation>Verworfene Aufnahmen</translation>
+    </message>
+    <message>
+        <source>Centre of rotation: algebraic circles through the track of each mark against the joint evaluation; short arcs pull the circles, they are shown for comparison and not used</source>
+        <translation>Drehmittelpunkt: algebraische Kreise durch die Bahn jeder Marke gegen die gemeinsame Auswertung; kurze Bögen ziehen an den Kreisen, sie dienen dem Vergleich und werden nicht verwendet</translation>
+    </message>
+    <message>
+        <source>Change / µm rms</source>
+        <translation>Änderung / µm rms</translation>
+    </message>
+    <message>
+        <source>Change of each point from its first reading, value ± one standard uncertainty</source>
+        <translation>Änderung jedes Punkts gegenüber seinem ersten Messwert, Wert ± eine Standardunsicherheit</translation>
+    </message>
+    <message>
+        <source>Changes of shape that no motion explains, and the standard uncertainty that each leaves in the deviation of its scan</source>
+        <translation>Formänderungen, die keine Bewegung erklärt, und die Standardunsicherheit, die jede in der Abweichung ihres Scans hinterlässt</translation>
+    </message>
+    <message>
+        <source>Checked by</source>
+        <translation>Geprüft von</translation>
+    </message>
+    <message>
+        <source>Chi-squared of</source>
+        <translation>Chi-Quadrat von</translation>
+    </message>
+    <message>
+        <source>Circles − joint x / µm</source>
+        <translation>Kreise − gemeinsam x / µm</translation>
+    </message>
+    <message>
+        <source>Circles − joint y / µm</source>
+        <translation>Kreise − gemeinsam y / µm</translation>
+    </message>
+    <message>
+        <source>Closed forms X, Y, Z / µrad</source>
+        <translation>Geschlossene Lösung X, Y, Z / µrad</translation>
+    </message>
+    <message>
+        <source>Coefficient and temperature / (µm/m)</source>
+        <translation>Koeffizient und Temperatur / (µm/m)</translation>
+    </message>
+    <message>
+        <source>Common shift</source>
+        <translation>Gemeinsame Verschiebung</translation>
+    </message>
+    <message>
+        <source>Common shift of all points of a state (re-referencing, refocus), with its standard uncertainty</source>
+        <translation>Gemeinsame Verschiebung aller Punkte eines Zustands (neu eingemessen, neu fokussiert), mit ihrer Standardunsicherheit</translation>
+    </message>
+    <message>
+        <source>Common shift of every state ± standard uncertainty</source>
+        <translation>Gemeinsame Verschiebung jedes Zustands ± Standardunsicherheit</translation>
+    </message>
+    <message>
+        <source>Component</source>
+        <translation>Komponente</translation>
+    </message>
+    <message>
+        <source>Condition</source>
+        <translation>Bedingung</translation>
+    </message>
+    <message>
+        <source>Correlated in time</source>
+        <translation>Zeitlich korreliert</translation>
+    </message>
+    <message>
+        <source>Cycle</source>
+        <translation>Zyklus</translation>
+    </message>
+    <message>
+        <source>Date</source>
+        <translation>Datum</translation>
+    </message>
+    <message>
+        <source>Decision</source>
+        <translation>Entscheidung</translation>
+    </message>
+    <message>
+        <source>Deviation</source>
+        <translation>Abweichung</translation>
+    </message>
+    <message>
+        <source>Deviation of the tool, drawn exaggerated,</source>
+        <translation>Abweichung des Werkzeugs, überhöht gezeichnet,</translation>
+    </message>
+    <message>
+        <source>Deviations from bore C, magnified {} ×</source>
+        <translation>Abweichungen gegenüber Bohrung C, {}-fach vergrößert</translation>
+    </message>
+    <message>
+        <source>Direction of the camera in the machine</source>
+        <translation>Richtung der Kamera in der Maschine</translation>
+    </message>
+    <message>
+        <source>Discrepancy: {}</source>
+        <translation>Abweichung von der Simulation: {}</translation>
+    </message>
+    <message>
+        <source>Displacement</source>
+        <translation>Verschiebung</translation>
+    </message>
+    <message>
+        <source>Displacement in state {}</source>
+        <translation>Verschiebung im Zustand {}</translation>
+    </message>
+    <message>
+        <source>Displacements of the log</source>
+        <translation>Verschiebungen des Protokolls</translation>
+    </message>
+    <message>
+        <source>Drive</source>
+        <translation>Antrieb</translation>
+    </message>
+    <message>
+        <source>Driven by {}. Probability that {} {:.2f}; gain in BIC {:.0f}; rms on {} {:.2f} µm before, {:.2f} µm after.</source>
+        <translation>Angetrieben von: {}. Wahrscheinlichkeit, dass {}: {:.2f}; Gewinn in BIC {:.0f}; rms auf {}: {:.2f} µm vorher, {:.2f} µm nachher.</translation>
+    </message>
+    <message>
+        <source>Effect</source>
+        <translation>Effekt</translation>
+    </message>
+    <message>
+        <source>Error parameters over the cycles; bars: one standard uncertainty</source>
+        <translation>Fehlerparameter über den Zyklen; Balken: eine Standardunsicherheit</translation>
+    </message>
+    <message>
+        <source>Error parameters per cycle, value ± one standard uncertainty</source>
+        <translation>Fehlerparameter je Zyklus, Wert ± eine Standardunsicherheit</translation>
+    </message>
+    <message>
+        <source>Error parameters ± one standard uncertainty; {} of {} cycles, all in the figure</source>
+        <translation>Fehlerparameter ± eine Standardunsicherheit; {} von {} Zyklen, alle im Bild</translation>
+    </message>
+    <message>
+        <source>Every point was read once only: there is no change to show.</source>
+        <translation>Jeder Punkt wurde nur einmal gemessen: es gibt keine Änderung zu zeigen.</translation>
+    </message>
+    <message>
+        <source>Evidence</source>
+        <translation>Evidenz</translation>
+    </message>
+    <message>
+        <source>Expected information gain {:.2f} of {:.2f} nat; probability of a unique result afterwards {:.2f}, probability of the leading explanation now {:.2f}.</source>
+        <translation>Erwarteter Informationsgewinn {:.2f} von {:.2f} nat; Wahrscheinlichkeit eines eindeutigen Ergebnisses danach {:.2f}, Wahrscheinlichkeit der führenden Erklärung jetzt {:.2f}.</translation>
+    </message>
+    <message>
+        <source>Fiducial</source>
+        <translation>Messmarke</translation>
+    </message>
+    <message>
+        <source>Figure {}: {}</source>
+        <translation>Bild {}: {}</translation>
+    </message>
+    <message>
+        <source>Fingerprint of the campaign</source>
+        <translation>Fingerabdruck der Kampagne</translation>
+    </message>
+    <message>
+        <source>Fitted states, peak-to-peak / µm</source>
+        <translation>Angepasste Zustände, Spanne / µm</translation>
+    </message>
+    <message>
+        <source>Fitted states, rms / µm</source>
+        <translation>Angepasste Zustände, rms / µm</translation>
+    </message>
+    <message>
+        <source>Fitted term instead</source>
+        <translation>Angepasster Term stattdessen</translation>
+    </message>
+    <message>
+        <source>Front</source>
+        <translation>Vorn</translation>
+    </message>
+    <message>
+        <source>Gain in BIC</source>
+        <translation>Gewinn in BIC</translation>
+    </message>
+    <message>
+        <source>Growth of the artefact; EME combines both by their uncertainties</source>
+        <translation>Wachstum des Prüfkörpers; EME verbindet beide nach ihren Unsicherheiten</translation>
+    </message>
+    <message>
+        <source>Growth of the artefact; EME rests on the touches alone</source>
+        <translation>Wachstum des Prüfkörpers; EME beruht allein auf den Antastungen</translation>
+    </message>
+    <message>
+        <source>Head rotation in {}: closed forms against the joint evaluation; the closed forms take every translation for a rotation and are shown for comparison only</source>
+        <translation>Drehung des Spindelkopfes in {}: geschlossene Lösung gegen gemeinsame Auswertung; die geschlossene Lösung hält jede Verschiebung für eine Drehung und dient nur dem Vergleich</translation>
+    </message>
+    <message>
+        <source>Held-out states, rms / µm</source>
+        <translation>Validierungszustände, rms / µm</translation>
+    </message>
+    <message>
+        <source>Image</source>
+        <translation>Bild</translation>
+    </message>
+    <message>
+        <source>It is</source>
+        <translation>Er ist</translation>
+    </message>
+    <message>
+        <source>Item</source>
+        <translation>Gegenstand</translation>
+    </message>
+    <message>
+        <source>Joint evaluation X, Y, Z / µrad</source>
+        <translation>Gemeinsame Auswertung X, Y, Z / µrad</translation>
+    </message>
+    <message>
+        <source>Joint x / px</source>
+        <translation>Gemeinsam x / px</translation>
+    </message>
+    <message>
+        <source>Joint y / px</source>
+        <translation>Gemeinsam y / px</translation>
+    </message>
+    <message>
+        <source>Kind</source>
+        <translation>Art</translation>
+    </message>
+    <message>
+        <source>Kinematic chain</source>
+        <translation>Kinematische Kette</translation>
+    </message>
+    <message>
+        <source>Largest change of {}</source>
+        <translation>Größte Änderung von {}</translation>
+    </message>
+    <message>
+        <source>Length of a pixel on the fiducial</source>
+        <translation>Länge eines Pixels auf der Messmarke</translation>
+    </message>
+    <message>
+        <source>Linear axes</source>
+        <translation>Linearachsen</translation>
+    </message>
+    <message>
+        <source>Markdown, line {}: the row of a table has {} cells; allowed: {}, as in its header.</source>
+        <translation>Markdown, Zeile {}: die Zeile einer Tabelle hat {} Zellen; zulässig: {}, wie in ihrem Kopf.</translation>
+    </message>
+    <message>
+        <source>Markdown: a block of code that begins with ``` does not end.</source>
+        <translation>Markdown: ein Codeblock, der mit ``` beginnt, endet nicht.</translation>
+    </message>
+    <message>
+        <source>Meaning</source>
+        <translation>Bedeutung</translation>
+    </message>
+    <message>
+        <source>Measure next</source>
+        <translation>Als Nächstes messen</translation>
+    </message>
+    <message>
+        <source>Measured by</source>
+        <translation>Gemessen von</translation>
+    </message>
+    <message>
+        <source>Measured displacement of the points in state {}, from {}: arrows X and Y, colour and number Z in µm</source>
+        <translation>Gemessene Verschiebung der Punkte im Zustand {}, ab {}: Pfeile X und Y, Farbe und Zahl Z in µm</translation>
+    </message>
+    <message>
+        <source>Measured minus the simulation&apos;s own runs, before and after</source>
+        <translation>Gemessen minus eigene Läufe der Simulation, vorher und nachher</translation>
+    </message>
+    <message>
+        <source>Measuring equipment</source>
+        <translation>Messmittel</translation>
+    </message>
+    <message>
+        <source>Movement of stylus 0 / µm</source>
+        <translation>Bewegung von Tastereinsatz 0 / µm</translation>
+    </message>
+    <message>
+        <source>Name</source>
+        <translation>Name</translation>
+    </message>
+    <message>
+        <source>No capture was rejected.</source>
+        <translation>Keine Aufnahme wurde verworfen.</translation>
+    </message>
+    <message>
+        <source>No deviation: the part is as it should be</source>
+        <translation>Keine Abweichung: Das Werkstück ist, wie es sein soll</translation>
+    </message>
+    <message>
+        <source>No reading is an outlier.</source>
+        <translation>Kein Messwert ist ein Ausreißer.</translation>
+    </message>
+    <message>
+        <source>Noise</source>
+        <translation>Rauschen</translation>
+    </message>
+    <message>
+        <source>Noise found in the data. Noise scale: actual over stated standard uncertainty of a reading; common shift: its standard deviation from state to state</source>
+        <translation>In den Daten gefundenes Rauschen. Rauschfaktor: tatsächliche durch angegebene Standardunsicherheit eines Messwerts; gemeinsame Verschiebung: ihre Standardabweichung von Zustand zu Zustand</translation>
+    </message>
+    <message>
+        <source>Noise scale</source>
+        <translation>Rauschfaktor</translation>
+    </message>
+    <message>
+        <source>Note: {}</source>
+        <translation>Hinweis: {}</translation>
+    </message>
+    <message>
+        <source>Operator</source>
+        <translation>Bediener</translation>
+    </message>
+    <message>
+        <source>Outlying readings: they were given little weight; deviation in standard deviations of the noise</source>
+        <translation>Ausreißer: sie bekamen wenig Gewicht; Abweichung in Standardabweichungen des Rauschens</translation>
+    </message>
+    <message>
+        <source>Page {} of {}</source>
+        <translation>Seite {} von {}</translation>
+    </message>
+    <message>
+        <source>Parameter</source>
+        <translation>Parameter</translation>
+    </message>
+    <message>
+        <source>Parameters of the simulation; after: value ± one standard uncertainty</source>
+        <translation>Parameter der Simulation; nachher: Wert ± eine Standardunsicherheit</translation>
+    </message>
+    <message>
+        <source>Parameters of the {}</source>
+        <translation>Parameter von: {}</translation>
+    </message>
+    <message>
+        <source>Point</source>
+        <translation>Punkt</translation>
+    </message>
+    <message>
+        <source>Points</source>
+        <translation>Punkte</translation>
+    </message>
+    <message>
+        <source>Position from</source>
+        <translation>Wegmessung</translation>
+    </message>
+    <message>
+        <source>Probability</source>
+        <translation>Wahrscheinlichkeit</translation>
+    </message>
+    <message>
+        <source>Program</source>
+        <translation>Programm</translation>
+    </message>
+    <message>
+        <source>Program of the machine: what ran when, each relative to its largest value</source>
+        <translation>Programm der Maschine: was wann lief, jedes bezogen auf seinen größten Wert</translation>
+    </message>
+    <message>
+        <source>Properties</source>
+        <translation>Eigenschaften</translation>
+    </message>
+    <message>
+        <source>Put into the simulation</source>
+        <translation>In die Simulation übernommen</translation>
+    </message>
+    <message>
+        <source>Reason</source>
+        <translation>Grund</translation>
+    </message>
+    <message>
+        <source>Reference temperature</source>
+        <translation>Bezugstemperatur</translation>
+    </message>
+    <message>
+        <source>Rejected captures</source>
+        <translation>Verworfene Aufnahmen</translation>
+    </message>
+    <message>
+        <source>Remainder of {}</source>
+        <translation>Rest von {}</translation>
+    </message>
+    <message>
+        <source>Remainder: {}.</source>
+        <translation>Rest: {}.</translation>
+    </message>
+    <message>
+        <source>Repeatability of the axes seen in the images</source>
+        <translation>Wiederholpräzision der Achsen in den Bildern</translation>
+    </message>
+    <message>
+        <source>Repeatability of the spindle orientation</source>
+        <translation>Wiederholpräzision der Spindelorientierung</translation>
+    </message>
+    <message>
+        <source>Report made</source>
+        <translation>Bericht erstellt</translation>
+    </message>
+    <message>
+        <source>Resolution</source>
+        <translation>Auflösung</translation>
+    </message>
+    <message>
+        <source>Rotation</source>
+        <translation>Drehung</translation>
+    </message>
+    <message>
+        <source>Rotation of the tool, as vectors,</source>
+        <translation>Drehung des Werkzeugs, als Vektoren,</translation>
+    </message>
+    <message>
+        <source>Row</source>
+        <translation>Zeile</translation>
+    </message>
+    <message>
+        <source>Serial number, calibration</source>
+        <translation>Seriennummer, Kalibrierung</translation>
+    </message>
+    <message>
+        <source>Side</source>
+        <translation>Seite</translation>
+    </message>
+    <message>
+        <source>Signature</source>
+        <translation>Unterschrift</translation>
+    </message>
+    <message>
+        <source>Simulation after</source>
+        <translation>Simulation nachher</translation>
+    </message>
+    <message>
+        <source>Simulation before</source>
+        <translation>Simulation vorher</translation>
+    </message>
+    <message>
+        <source>Slope of the axis / (µm/m)</source>
+        <translation>Steigung der Achse / (µm/m)</translation>
+    </message>
+    <message>
+        <source>Spindle</source>
+        <translation>Spindel</translation>
+    </message>
+    <message>
+        <source>Spindrift {}</source>
+        <translation>Spindrift {}</translation>
+    </message>
+    <message>
+        <source>Table {}: {}</source>
+        <translation>Tabelle {}: {}</translation>
+    </message>
+    <message>
+        <source>Tails: Student t with {:.0f} degrees of freedom.</source>
+        <translation>Ausläufer: Student-t mit {:.0f} Freiheitsgraden.</translation>
+    </message>
+    <message>
+        <source>Tails: normal distribution.</source>
+        <translation>Ausläufer: Normalverteilung.</translation>
+    </message>
+    <message>
+        <source>Temperatures of the log</source>
+        <translation>Temperaturen des Protokolls</translation>
+    </message>
+    <message>
+        <source>The clock of the log is {} {} that of the observations.</source>
+        <translation>Die Uhr des Protokolls geht der Uhr der Beobachtungen um {} {}.</translation>
+    </message>
+    <message>
+        <source>The control was compensating during part of this campaign; observations from that time show the residual, not the error of the machine.</source>
+        <translation>Die Steuerung hat während eines Teils dieser Kampagne kompensiert; Beobachtungen aus dieser Zeit zeigen das Residuum, nicht die Abweichung der Maschine.</translation>
+    </message>
+    <message>
+        <source>The gap between measured and simulated; the noise is the floor</source>
+        <translation>Die Differenz zwischen Messung und Simulation; das Rauschen ist die untere Grenze</translation>
+    </message>
+    <message>
+        <source>The machine is not described; this report is of a log alone.</source>
+        <translation>Die Maschine ist nicht beschrieben; dieser Bericht betrifft allein ein Protokoll.</translation>
+    </message>
+    <message>
+        <source>The most probable effects: probability that each is among what is missing, before rivals and the remainder are weighed</source>
+        <translation>Die wahrscheinlichsten Effekte: Wahrscheinlichkeit, dass jeder zu dem gehört, was fehlt, bevor konkurrierende Erklärungen und der Rest abgewogen sind</translation>
+    </message>
+    <message>
+        <source>The remainder: what is smooth in time and space and neither effect nor noise; evidence: 2 ln of the odds that it is more than noise, clear from 10 on</source>
+        <translation>Der Rest: was in Zeit und Raum glatt ist und weder Effekt noch Rauschen; Evidenz: 2 ln der Chancen, dass es mehr als Rauschen ist, deutlich ab 10</translation>
+    </message>
+    <message>
+        <source>Thermal errors: {}</source>
+        <translation>Thermische Abweichungen: {}</translation>
+    </message>
+    <message>
+        <source>These data cannot tell it from {}.</source>
+        <translation>Diese Daten können ihn nicht unterscheiden von {}.</translation>
+    </message>
+    <message>
+        <source>These data show no offset between the clocks of log and observations.</source>
+        <translation>Diese Daten zeigen keinen Versatz zwischen den Uhren von Protokoll und Beobachtungen.</translation>
+    </message>
+    <message>
+        <source>Tilts of the log</source>
+        <translation>Neigungen des Protokolls</translation>
+    </message>
+    <message>
+        <source>Time / h</source>
+        <translation>Zeit / h</translation>
+    </message>
+    <message>
+        <source>To tell {}: {}.</source>
+        <translation>Um {} zu unterscheiden: {}.</translation>
+    </message>
+    <message>
+        <source>Top</source>
+        <translation>Oben</translation>
+    </message>
+    <message>
+        <source>Touches alone / (µm/m)</source>
+        <translation>Antastungen allein / (µm/m)</translation>
+    </message>
+    <message>
+        <source>Tracks</source>
+        <translation>Bahnen</translation>
+    </message>
+    <message>
+        <source>Travel / mm</source>
+        <translation>Verfahrweg / mm</translation>
+    </message>
+    <message>
+        <source>Uncertainties</source>
+        <translation>Unsicherheiten</translation>
+    </message>
+    <message>
+        <source>Value</source>
+        <translation>Wert</translation>
+    </message>
+    <message>
+        <source>Value ± standard uncertainty</source>
+        <translation>Wert ± Standardunsicherheit</translation>
+    </message>
+    <message>
+        <source>What</source>
+        <translation>Was</translation>
+    </message>
+    <message>
+        <source>What remains in {} at all points over time{}</source>
+        <translation>Was in {} an allen Punkten über der Zeit verbleibt{}</translation>
+    </message>
+    <message>
+        <source>What the error parameters mean</source>
+        <translation>Bedeutung der Fehlerparameter</translation>
+    </message>
+    <message>
+        <source>What the machine does, from its start after a night at rest</source>
+        <translation>Was die Maschine tut, ab ihrem Start nach einer Nacht in Ruhe</translation>
+    </message>
+    <message>
+        <source>What was taken as noise</source>
+        <translation>Was als Rauschen galt</translation>
+    </message>
+    <message>
+        <source>What was tried, in this order</source>
+        <translation>Was versucht wurde, in dieser Reihenfolge</translation>
+    </message>
+    <message>
+        <source>Where measured and simulated disagree; p: probability of so much by chance, for all places looked at together</source>
+        <translation>Wo Messung und Simulation sich widersprechen; p: Wahrscheinlichkeit, dass so viel zufällig auftritt, für alle betrachteten Stellen zusammen</translation>
+    </message>
+    <message>
+        <source>Why it was not used</source>
+        <translation>Warum sie nicht verwendet wurde</translation>
+    </message>
+    <message>
+        <source>X / mm</source>
+        <translation>X / mm</translation>
+    </message>
+    <message>
+        <source>Y / mm</source>
+        <translation>Y / mm</translation>
+    </message>
+    <message>
+        <source>a PNG scale of {} is not possible; allowed: 0.5 to 8.</source>
+        <translation>ein PNG-Maßstab von {} ist nicht möglich; zulässig: 0,5 bis 8.</translation>
+    </message>
+    <message>
+        <source>a colour limit of {} is not possible; allowed: greater than zero.</source>
+        <translation>eine Farbgrenze von {} ist nicht möglich; zulässig: größer als null.</translation>
+    </message>
+    <message>
+        <source>a picture of {:g} x {:g} px cannot be drawn.</source>
+        <translation>ein Bild von {:g} x {:g} px lässt sich nicht zeichnen.</translation>
+    </message>
+    <message>
+        <source>a picture of {} px is not possible; allowed: 480 to 8000 px wide.</source>
+        <translation>ein Bild von {} px ist nicht möglich; zulässig: 480 bis 8000 px Breite.</translation>
+    </message>
+    <message>
+        <source>added, then taken out again</source>
+        <translation>hinzugefügt, dann zurückgenommen</translation>
+    </message>
+    <message>
+        <source>added, then taken out again: with it too something remains that no effect explains</source>
+        <translation>hinzugefügt, dann zurückgenommen: auch mit ihm verbleibt etwas, das kein Effekt erklärt</translation>
+    </message>
+    <message>
+        <source>adjusted within its uncertainty</source>
+        <translation>innerhalb seiner Unsicherheit angepasst</translation>
+    </message>
+    <message>
+        <source>axis {}, up to {}</source>
+        <translation>Achse {}, bis {}</translation>
+    </message>
+    <message>
+        <source>blocks left out in turn</source>
+        <translation>reihum ausgelassenen Blöcken</translation>
+    </message>
+    <message>
+        <source>cannot be read</source>
+        <translation>nicht lesbar</translation>
+    </message>
+    <message>
+        <source>certified at</source>
+        <translation>kalibriert bei</translation>
+    </message>
+    <message>
+        <source>change / µm</source>
+        <translation>Änderung / µm</translation>
+    </message>
+    <message>
+        <source>change / µrad</source>
+        <translation>Änderung / µrad</translation>
+    </message>
+    <message>
+        <source>change of the tool relative to the table from {}</source>
+        <translation>Änderung des Werkzeugs gegenüber dem Tisch ab {}</translation>
+    </message>
+    <message>
+        <source>changes no prediction</source>
+        <translation>ändert keine Vorhersage</translation>
+    </message>
+    <message>
+        <source>completed model</source>
+        <translation>vervollständigtes Modell</translation>
+    </message>
+    <message>
+        <source>displacement / µm</source>
+        <translation>Verschiebung / µm</translation>
+    </message>
+    <message>
+        <source>each point</source>
+        <translation>jedes Punkts</translation>
+    </message>
+    <message>
+        <source>fit, {} / %</source>
+        <translation>Anpassung, {} / %</translation>
+    </message>
+    <message>
+        <source>hatched: outside the measured points</source>
+        <translation>schraffiert: außerhalb der gemessenen Punkte</translation>
+    </message>
+    <message>
+        <source>held out</source>
+        <translation>Validierungsdaten</translation>
+    </message>
+    <message>
+        <source>held-out data</source>
+        <translation>Validierungsdaten</translation>
+    </message>
+    <message>
+        <source>holds what is named as a special case</source>
+        <translation>enthält das Benannte als Sonderfall</translation>
+    </message>
+    <message>
+        <source>holes of</source>
+        <translation>Bohrungen von</translation>
+    </message>
+    <message>
+        <source>hollow point: not fitted</source>
+        <translation>hohler Punkt: nicht angepasst</translation>
+    </message>
+    <message>
+        <source>it or one of its rivals is right</source>
+        <translation>er oder eine konkurrierende Erklärung stimmt</translation>
+    </message>
+    <message>
+        <source>its first reading</source>
+        <translation>seinem ersten Messwert</translation>
+    </message>
+    <message>
+        <source>largest peak-to-peak of one series, {} / {}</source>
+        <translation>größte Spanne einer Reihe, {} / {}</translation>
+    </message>
+    <message>
+        <source>laser profiler</source>
+        <translation>Laser-Profilsensor</translation>
+    </message>
+    <message>
+        <source>log without a description of its machine · report of {}</source>
+        <translation>Protokoll ohne Beschreibung seiner Maschine · Bericht vom {}</translation>
+    </message>
+    <message>
+        <source>may be noise</source>
+        <translation>kann Rauschen sein</translation>
+    </message>
+    <message>
+        <source>measured minus {}</source>
+        <translation>gemessen minus {}</translation>
+    </message>
+    <message>
+        <source>new simulation</source>
+        <translation>neue Simulation</translation>
+    </message>
+    <message>
+        <source>no data</source>
+        <translation>keine Daten</translation>
+    </message>
+    <message>
+        <source>not added: {}</source>
+        <translation>nicht hinzugefügt: {}</translation>
+    </message>
+    <message>
+        <source>not known</source>
+        <translation>nicht bekannt</translation>
+    </message>
+    <message>
+        <source>not stated</source>
+        <translation>nicht angegeben</translation>
+    </message>
+    <message>
+        <source>one standard uncertainty (k = 1) unless stated otherwise</source>
+        <translation>eine Standardunsicherheit (k = 1), wo nichts anderes angegeben ist</translation>
+    </message>
+    <message>
+        <source>pale: smaller than 2 sigma</source>
+        <translation>blass: kleiner als 2 Sigma</translation>
+    </message>
+    <message>
+        <source>pale: smaller than two standard uncertainties, hatched: outside the measured points, hollow: not fitted</source>
+        <translation>blass: kleiner als zwei Standardunsicherheiten, schraffiert: außerhalb der gemessenen Punkte, hohl: nicht angepasst</translation>
+    </message>
+    <message>
+        <source>put in</source>
+        <translation>eingesetzt</translation>
+    </message>
+    <message>
+        <source>rejected by hand</source>
+        <translation>von Hand verworfen</translation>
+    </message>
+    <message>
+        <source>rival of what is named</source>
+        <translation>konkurrierende Erklärung zum Benannten</translation>
+    </message>
+    <message>
+        <source>rms of blocks of rows left out in turn</source>
+        <translation>rms der reihum ausgelassenen Zeilenblöcke</translation>
+    </message>
+    <message>
+        <source>rms of the rows held out</source>
+        <translation>rms der Validierungsdaten</translation>
+    </message>
+    <message>
+        <source>rms of the rows that were fitted, per point and component, before → after</source>
+        <translation>rms der angepassten Zeilen, je Punkt und Komponente, vorher → nachher</translation>
+    </message>
+    <message>
+        <source>rms of the rows that were fitted{}</source>
+        <translation>rms der angepassten Zeilen{}</translation>
+    </message>
+    <message>
+        <source>rms: root mean square of the residual, each series about its own constant, which is fitted anew with every model. Fit: 100 % is perfect, 0 % no better than a constant for each series. BIC: Bayesian information criterion; a gain above 10 is strong evidence for the effect. Held out: rows that took no part in the choice.</source>
+        <translation>rms: quadratisches Mittel des Residuums, jede Reihe um ihre eigene Konstante, die mit jedem Modell neu angepasst wird. Anpassung: 100 % ist vollkommen, 0 % nicht besser als eine Konstante je Reihe. BIC: bayessches Informationskriterium; ein Gewinn über 10 spricht stark für den Effekt. Validierungsdaten: Zeilen, die an der Auswahl nicht teilnahmen.</translation>
+    </message>
+    <message>
+        <source>rows fitted</source>
+        <translation>angepasste Zeilen</translation>
+    </message>
+    <message>
+        <source>rows held out</source>
+        <translation>Zeilen der Validierungsdaten</translation>
+    </message>
+    <message>
+        <source>shift / µm</source>
+        <translation>Verschiebung / µm</translation>
+    </message>
+    <message>
+        <source>shift / µrad</source>
+        <translation>Verschiebung / µrad</translation>
+    </message>
+    <message>
+        <source>temperature / °C</source>
+        <translation>Temperatur / °C</translation>
+    </message>
+    <message>
+        <source>the name is right</source>
+        <translation>der Name stimmt</translation>
+    </message>
+    <message>
+        <source>the picture could not be drawn: {}.</source>
+        <translation>das Bild ließ sich nicht zeichnen: {}.</translation>
+    </message>
+    <message>
+        <source>the {} of {} points that change most</source>
+        <translation>der {} von {} Punkten, die sich am meisten ändern</translation>
+    </message>
+    <message>
+        <source>there beside the noise</source>
+        <translation>neben dem Rauschen vorhanden</translation>
+    </message>
+    <message>
+        <source>tilt / µrad</source>
+        <translation>Neigung / µrad</translation>
+    </message>
+    <message>
+        <source>uncertainty of the certificate</source>
+        <translation>Unsicherheit des Kalibrierscheins</translation>
+    </message>
+    <message>
+        <source>x / mm</source>
+        <translation>x / mm</translation>
+    </message>
+    <message>
+        <source>y / mm</source>
+        <translation>y / mm</translation>
+    </message>
+    <message>
+        <source>{:.0f} % over {}</source>
+        <translation>{:.0f} % über {}</translation>
+    </message>
+    <message>
+        <source>{:.1f} of {}</source>
+        <translation>{:.1f} von {}</translation>
+    </message>
+    <message>
+        <source>{:.1f} to {:.1f}</source>
+        <translation>{:.1f} bis {:.1f}</translation>
+    </message>
+    <message>
+        <source>{:.2f} to {:.2f}</source>
+        <translation>{:.2f} bis {:.2f}</translation>
+    </message>
+    <message>
+        <source>{:g} µm in X and Y, drawn {:g} times as long; bars: 2 standard uncertainties; number: EZ</source>
+        <translation>{:g} µm in X und Y, {:g}-mal so lang gezeichnet; Balken: 2 Standardunsicherheiten; Zahl: EZ</translation>
+    </message>
+    <message>
+        <source>{} at {} in state {}</source>
+        <translation>{} bei {} im Zustand {}</translation>
+    </message>
+    <message>
+        <source>{} for a gain of 1 {}: at most {:.3g} {}.</source>
+        <translation>{} für eine Verstärkung von 1 {}: höchstens {:.3g} {}.</translation>
+    </message>
+    <message>
+        <source>{} items, listed with their reasons</source>
+        <translation>{} Einträge, mit ihren Gründen aufgeführt</translation>
+    </message>
+    <message>
+        <source>{} observations of {} points in {} states. Deviation = actual minus commanded position of the tool relative to the table, up to a constant per point and component; shown is the change from the first reading of each point.</source>
+        <translation>{} Beobachtungen von {} Punkten in {} Zuständen. Abweichung = Istposition minus Sollposition des Werkzeugs gegenüber dem Tisch, bis auf eine Konstante je Punkt und Komponente; gezeigt ist die Änderung gegenüber dem ersten Messwert jedes Punkts.</translation>
+    </message>
+    <message>
+        <source>{} of all points over time, before and after</source>
+        <translation>{} aller Punkte über der Zeit, vorher und nachher</translation>
+    </message>
+    <message>
+        <source>{} of {} from its first reading, all on one scale; bands: two standard uncertainties</source>
+        <translation>{} von {} gegenüber dem ersten Messwert, alle in einem Maßstab; Bänder: zwei Standardunsicherheiten</translation>
+    </message>
+    <message>
+        <source>{} over the table</source>
+        <translation>{} über dem Tisch</translation>
+    </message>
+    <message>
+        <source>{} over the table at {:.2f} h, where the gap is largest, before and after on one scale; between the points interpolated; {}</source>
+        <translation>{} über dem Tisch bei {:.2f} h, wo die Differenz am größten ist, vorher und nachher in einem Maßstab; zwischen den Punkten interpoliert; {}</translation>
+    </message>
+    <message>
+        <source>{} runs of the simulation to search, {} to fit ({:.0f} s).</source>
+        <translation>{} Läufe der Simulation zum Suchen, {} zum Anpassen ({:.0f} s).</translation>
+    </message>
+    <message>
+        <source>{} · measured from {} · report of {}</source>
+        <translation>{} · gemessen ab {} · Bericht vom {}</translation>
+    </message>
+    <message>
+        <source>{} × {} pixels</source>
+        <translation>{} × {} Pixel</translation>
+    </message>
+    <message>
+        <source>{}, colour {}</source>
+        <translation>{}, Farbe {}</translation>
+    </message>
+    <message>
+        <source>{}, listed with their reasons</source>
+        <translation>{}, mit ihren Gründen aufgeführt</translation>
+    </message>
+    <message>
+        <source>{}, up to {:g} {}</source>
+        <translation>{}, bis {:g} {}</translation>
+    </message>
+    <message>
+        <source>{}; the {} of {} that change most</source>
+        <translation>{}; die {} von {}, die sich am meisten ändern</translation>
+    </message>
+    <message>
+        <source>Effects that the search knows</source>
+        <translation>Effekte, die die Suche kennt</translation>
+    </message>
+    <message>
+        <source>Error parameters</source>
+        <translation>Fehlerparameter</translation>
+    </message>
+    <message>
+        <source>added</source>
+        <translation>hinzugefügt</translation>
+    </message>
+    <message>
+        <source>after</source>
+        <translation>nachher</translation>
+    </message>
+    <message>
+        <source>before</source>
+        <translation>vorher</translation>
+    </message>
+    <message>
+        <source>behind</source>
+        <translation>nach</translation>
+    </message>
+    <message>
+        <source>cycle</source>
+        <translation>Zyklus</translation>
+    </message>
+    <message>
+        <source>effects</source>
+        <translation>Effekte</translation>
+    </message>
+    <message>
+        <source>noise</source>
+        <translation>Rauschen</translation>
+    </message>
+    <message>
+        <source>none</source>
+        <translation>keine</translation>
+    </message>
+    <message>
+        <source>remainder</source>
+        <translation>Rest</translation>
+    </message>
+    <message>
+        <source>Added to the simulation</source>
+        <translation>Der Simulation hinzugefügt</translation>
+    </message>
+    <message>
+        <source>After 60 min</source>
+        <translation>Nach 60 min</translation>
+    </message>
+    <message>
+        <source>An effect is a driver (a column of the log, after its dynamics q(t)) times a gain times a shape. The figures show the shape for a gain of one in the middle planes of a working volume of 500 mm x 500 mm x 400 mm: grey as commanded, coloured as displaced, magnified so that the largest displacement is a tenth of the volume.</source>
+        <translation>Ein Effekt ist ein Antrieb (eine Spalte des Protokolls, nach seiner Dynamik q(t)) mal eine Verstärkung mal eine Form. Die Bilder zeigen die Form für die Verstärkung eins in den Mittelebenen eines Arbeitsraums von 500 mm x 500 mm x 400 mm: grau wie befohlen, farbig wie verschoben, so vergrößert, dass die größte Verschiebung ein Zehntel des Arbeitsraums ist.</translation>
+    </message>
+    <message>
+        <source>As the measuring cycles saw it, relative to the first cycle</source>
+        <translation>Wie die Messzyklen es sahen, bezogen auf den ersten Zyklus</translation>
+    </message>
+    <message>
+        <source>As they stand in files; on screen and in reports units are written µm, µrad and µm/m. Symbols of the form E, direction, axis are those of ISO 230-1:2012: the error in the direction X, Y or Z (or about it: A, B, C) of the axis named last. 0 marks an error of the position or orientation of an axis.</source>
+        <translation>Wie sie in Dateien stehen; am Bildschirm und in Berichten heißen die Einheiten µm, µrad und µm/m. Symbole der Form E, Richtung, Achse sind die von ISO 230-1:2012: die Abweichung in Richtung X, Y oder Z (oder darum: A, B, C) der zuletzt genannten Achse. 0 kennzeichnet eine Abweichung der Lage oder Orientierung einer Achse.</translation>
+    </message>
+    <message>
+        <source>At the end</source>
+        <translation>Am Ende</translation>
+    </message>
+    <message>
+        <source>Captured</source>
+        <translation>Aufgenommen</translation>
+    </message>
+    <message>
+        <source>Check</source>
+        <translation>Prüfung</translation>
+    </message>
+    <message>
+        <source>Cold repeatability</source>
+        <translation>Wiederholpräzision kalt</translation>
+    </message>
+    <message>
+        <source>Compensation verified</source>
+        <translation>Kompensation verifiziert</translation>
+    </message>
+    <message>
+        <source>Correction at each measured point and what would remain of the measured deviation</source>
+        <translation>Korrektur an jedem gemessenen Punkt und was von der gemessenen Abweichung bliebe</translation>
+    </message>
+    <message>
+        <source>Corrections at 40 of {} points</source>
+        <translation>Korrekturen an 40 von {} Punkten</translation>
+    </message>
+    <message>
+        <source>Cycles</source>
+        <translation>Zyklen</translation>
+    </message>
+    <message>
+        <source>Deviation {} at the tool point as measured</source>
+        <translation>Abweichung {} am Werkzeugpunkt, wie gemessen</translation>
+    </message>
+    <message>
+        <source>Driven by</source>
+        <translation>Angetrieben von</translation>
+    </message>
+    <message>
+        <source>Due / h</source>
+        <translation>Fällig / h</translation>
+    </message>
+    <message>
+        <source>Dynamics</source>
+        <translation>Dynamik</translation>
+    </message>
+    <message>
+        <source>End value of the response</source>
+        <translation>Endwert der Antwort</translation>
+    </message>
+    <message>
+        <source>Event</source>
+        <translation>Ereignis</translation>
+    </message>
+    <message>
+        <source>Features</source>
+        <translation>Merkmale</translation>
+    </message>
+    <message>
+        <source>Fiducials</source>
+        <translation>Messmarken</translation>
+    </message>
+    <message>
+        <source>File</source>
+        <translation>Datei</translation>
+    </message>
+    <message>
+        <source>Fit in the test</source>
+        <translation>Anpassung in der Prüfung</translation>
+    </message>
+    <message>
+        <source>From {:.2f} h, {}, measured:</source>
+        <translation>Ab {:.2f} h, {}, gemessen:</translation>
+    </message>
+    <message>
+        <source>Goal</source>
+        <translation>Ziel</translation>
+    </message>
+    <message>
+        <source>Goal {:g} µm, judged by the {} of the changes from the first state; decision rule of ISO 14253-1.</source>
+        <translation>Ziel {:g} µm, beurteilt nach: {} der Änderungen gegenüber dem ersten Zustand; Entscheidungsregel nach ISO 14253-1.</translation>
+    </message>
+    <message>
+        <source>Images</source>
+        <translation>Bilder</translation>
+    </message>
+    <message>
+        <source>Images of fiducials</source>
+        <translation>Bilder der Messmarken</translation>
+    </message>
+    <message>
+        <source>In the test range the model is no better than a plain one: do not use it for compensation.</source>
+        <translation>Im Prüfbereich ist das Modell nicht besser als ein einfaches: nicht zur Kompensation verwenden.</translation>
+    </message>
+    <message>
+        <source>Input</source>
+        <translation>Eingang</translation>
+    </message>
+    <message>
+        <source>Jogs</source>
+        <translation>Verfahrschritte</translation>
+    </message>
+    <message>
+        <source>Largest after</source>
+        <translation>Größte nachher</translation>
+    </message>
+    <message>
+        <source>Largest before</source>
+        <translation>Größte vorher</translation>
+    </message>
+    <message>
+        <source>Largest compensation</source>
+        <translation>Größte Kompensation</translation>
+    </message>
+    <message>
+        <source>Largest correction</source>
+        <translation>Größte Korrektur</translation>
+    </message>
+    <message>
+        <source>Largest correction rate</source>
+        <translation>Größte Korrekturgeschwindigkeit</translation>
+    </message>
+    <message>
+        <source>Largest correction step</source>
+        <translation>Größter Korrekturschritt</translation>
+    </message>
+    <message>
+        <source>Losses of the control</source>
+        <translation>Verluste der Steuerung</translation>
+    </message>
+    <message>
+        <source>Measuring cycles</source>
+        <translation>Messzyklen</translation>
+    </message>
+    <message>
+        <source>Model</source>
+        <translation>Modell</translation>
+    </message>
+    <message>
+        <source>Model of the displacement over the table in state {}: {}; {}</source>
+        <translation>Modell der Verschiebung über dem Tisch im Zustand {}: {}; {}</translation>
+    </message>
+    <message>
+        <source>Nested models</source>
+        <translation>Eingebettete Modelle</translation>
+    </message>
+    <message>
+        <source>Nine-parameter model of {}</source>
+        <translation>Neun-Parameter-Modell von {}</translation>
+    </message>
+    <message>
+        <source>No model of this state: {}</source>
+        <translation>Kein Modell dieses Zustands: {}</translation>
+    </message>
+    <message>
+        <source>Output</source>
+        <translation>Ausgang</translation>
+    </message>
+    <message>
+        <source>Output:</source>
+        <translation>Ausgang:</translation>
+    </message>
+    <message>
+        <source>Over {:.1f} h, ambient temperature range {:.2f} K.</source>
+        <translation>Über {:.1f} h, Spanne der Umgebungstemperatur {:.2f} K.</translation>
+    </message>
+    <message>
+        <source>Parameters of the environmental variation test</source>
+        <translation>Kenngrößen der Prüfung bei Änderung der Umgebungstemperatur</translation>
+    </message>
+    <message>
+        <source>Parameters of the rotating spindle test</source>
+        <translation>Kenngrößen der Prüfung mit drehender Spindel</translation>
+    </message>
+    <message>
+        <source>Peak to peak in the test</source>
+        <translation>Spanne in der Prüfung</translation>
+    </message>
+    <message>
+        <source>Planned</source>
+        <translation>Geplant</translation>
+    </message>
+    <message>
+        <source>Planned and captured items per thermal state</source>
+        <translation>Geplante und aufgenommene Punkte je thermischem Zustand</translation>
+    </message>
+    <message>
+        <source>Position / mm</source>
+        <translation>Position / mm</translation>
+    </message>
+    <message>
+        <source>Quality of the model and of plain ones{}; fit: 100 % is perfect, 0 % no better than the mean</source>
+        <translation>Güte des Modells und einfacher Modelle{}; Anpassung: 100 % ist vollkommen, 0 % nicht besser als der Mittelwert</translation>
+    </message>
+    <message>
+        <source>Range</source>
+        <translation>Spanne</translation>
+    </message>
+    <message>
+        <source>Range per K</source>
+        <translation>Spanne je K</translation>
+    </message>
+    <message>
+        <source>Readings of the test over time</source>
+        <translation>Messwerte der Prüfung über der Zeit</translation>
+    </message>
+    <message>
+        <source>Reduction</source>
+        <translation>Verringerung</translation>
+    </message>
+    <message>
+        <source>References</source>
+        <translation>Literatur</translation>
+    </message>
+    <message>
+        <source>Rows</source>
+        <translation>Zeilen</translation>
+    </message>
+    <message>
+        <source>Scans</source>
+        <translation>Scans</translation>
+    </message>
+    <message>
+        <source>Shape</source>
+        <translation>Form</translation>
+    </message>
+    <message>
+        <source>Sign and reference</source>
+        <translation>Vorzeichen und Bezug</translation>
+    </message>
+    <message>
+        <source>Simulation and measurement</source>
+        <translation>Simulation und Messung</translation>
+    </message>
+    <message>
+        <source>Slope on the ambient temperature</source>
+        <translation>Steigung über der Umgebungstemperatur</translation>
+    </message>
+    <message>
+        <source>Spindrift: the manual</source>
+        <translation>Spindrift: das Handbuch</translation>
+    </message>
+    <message>
+        <source>Standard uncertainty of the correction</source>
+        <translation>Standardunsicherheit der Korrektur</translation>
+    </message>
+    <message>
+        <source>State {}</source>
+        <translation>Zustand {}</translation>
+    </message>
+    <message>
+        <source>Step</source>
+        <translation>Schritt</translation>
+    </message>
+    <message>
+        <source>Step responses of the model, end value ± one standard uncertainty</source>
+        <translation>Sprungantworten des Modells, Endwert ± eine Standardunsicherheit</translation>
+    </message>
+    <message>
+        <source>Symbol</source>
+        <translation>Symbol</translation>
+    </message>
+    <message>
+        <source>Tables for the control</source>
+        <translation>Tabellen für die Steuerung</translation>
+    </message>
+    <message>
+        <source>Taken out</source>
+        <translation>Herausgenommen</translation>
+    </message>
+    <message>
+        <source>The control&apos;s compensator, run over the log in {:.0f} cycles of {:g} s: {:.0f} on held inputs, {:.0f} in fall-back. Compensation = −predicted deviation, added to the command.</source>
+        <translation>Der Kompensator der Steuerung, über das Protokoll gelaufen in {:.0f} Zyklen von {:g} s: {:.0f} mit gehaltenen Eingängen, {:.0f} im Rückfallbetrieb. Kompensation = −vorhergesagte Abweichung, zum Sollwert addiert.</translation>
+    </message>
+    <message>
+        <source>The first image of every fiducial and state</source>
+        <translation>Das erste Bild jeder Messmarke und jedes Zustands</translation>
+    </message>
+    <message>
+        <source>The first image of {} of {} fiducials and states</source>
+        <translation>Das erste Bild von {} von {} Messmarken und Zuständen</translation>
+    </message>
+    <message>
+        <source>The first scan of every artefact from above, coloured by height</source>
+        <translation>Der erste Scan jedes Prüfkörpers von oben, nach Höhe gefärbt</translation>
+    </message>
+    <message>
+        <source>The same on data not used for fitting</source>
+        <translation>Dasselbe an nicht zur Anpassung verwendeten Daten</translation>
+    </message>
+    <message>
+        <source>The same plan before and after compensating</source>
+        <translation>Derselbe Plan vor und nach der Kompensation</translation>
+    </message>
+    <message>
+        <source>The spindle ran from {:.2f} h to {:.2f} h; changes are relative to its start.</source>
+        <translation>Die Spindel lief von {:.2f} h bis {:.2f} h; Änderungen beziehen sich auf ihren Start.</translation>
+    </message>
+    <message>
+        <source>This is outdated. Changed since it was worked out: {}.</source>
+        <translation>Dies ist veraltet. Seit der Auswertung geändert: {}.</translation>
+    </message>
+    <message>
+        <source>Times resumed</source>
+        <translation>Wiederaufnahmen</translation>
+    </message>
+    <message>
+        <source>Touches a cycle</source>
+        <translation>Antastungen je Zyklus</translation>
+    </message>
+    <message>
+        <source>Unseen: {}</source>
+        <translation>Ungesehen: {}</translation>
+    </message>
+    <message>
+        <source>Verdict</source>
+        <translation>Urteil</translation>
+    </message>
+    <message>
+        <source>Warm-up, measured</source>
+        <translation>Warmlauf, gemessen</translation>
+    </message>
+    <message>
+        <source>Warm-up, stated</source>
+        <translation>Warmlauf, angegeben</translation>
+    </message>
+    <message>
+        <source>Warm-up: {}</source>
+        <translation>Warmlauf: {}</translation>
+    </message>
+    <message>
+        <source>What the compensation leaves of the measured deviations; a reduction is positive where it helps</source>
+        <translation>Was die Kompensation von den gemessenen Abweichungen lässt; eine Verringerung ist positiv, wo sie hilft</translation>
+    </message>
+    <message>
+        <source>Where the touches of the first cycle are, machine coordinates</source>
+        <translation>Wo die Antastungen des ersten Zyklus liegen, Maschinenkoordinaten</translation>
+    </message>
+    <message>
+        <source>better than plain models on rows it had not seen</source>
+        <translation>besser als einfache Modelle auf ungesehenen Zeilen</translation>
+    </message>
+    <message>
+        <source>identified models</source>
+        <translation>identifizierte Modelle</translation>
+    </message>
+    <message>
+        <source>measured, modelled and compensated at the control</source>
+        <translation>an der Steuerung gemessen, modelliert und kompensiert</translation>
+    </message>
+    <message>
+        <source>no better than a plain model: do not use for compensation</source>
+        <translation>nicht besser als ein einfaches Modell: nicht zur Kompensation verwenden</translation>
+    </message>
+    <message>
+        <source>not decided</source>
+        <translation>nicht entschieden</translation>
+    </message>
+    <message>
+        <source>nothing that is logged</source>
+        <translation>nichts, was protokolliert wird</translation>
+    </message>
+    <message>
+        <source>outdated, changed since: {}. {}</source>
+        <translation>veraltet, seitdem geändert: {}. {}</translation>
+    </message>
+    <message>
+        <source>outdated: {}</source>
+        <translation>veraltet: {}</translation>
+    </message>
+    <message>
+        <source>rms after</source>
+        <translation>rms nachher</translation>
+    </message>
+    <message>
+        <source>rms before</source>
+        <translation>rms vorher</translation>
+    </message>
+    <message>
+        <source>rms expected with the correction</source>
+        <translation>mit der Korrektur erwarteter rms</translation>
+    </message>
+    <message>
+        <source>rms in the test</source>
+        <translation>rms in der Prüfung</translation>
+    </message>
+    <message>
+        <source>rms in training</source>
+        <translation>rms im Training</translation>
+    </message>
+    <message>
+        <source>rms of the measured deviations before</source>
+        <translation>rms der gemessenen Abweichungen vorher</translation>
+    </message>
+    <message>
+        <source>rms with / µm</source>
+        <translation>rms mit / µm</translation>
+    </message>
+    <message>
+        <source>rms without / µm</source>
+        <translation>rms ohne / µm</translation>
+    </message>
+    <message>
+        <source>shape of {}</source>
+        <translation>Form von {}</translation>
+    </message>
+    <message>
+        <source>simulation with the added effect</source>
+        <translation>Simulation mit dem hinzugefügten Effekt</translation>
+    </message>
+    <message>
+        <source>stated by the operator, not measured</source>
+        <translation>vom Bediener angegeben, nicht gemessen</translation>
+    </message>
+    <message>
+        <source>with compensation</source>
+        <translation>mit Kompensation</translation>
+    </message>
+    <message>
+        <source>without compensation</source>
+        <translation>ohne Kompensation</translation>
+    </message>
+    <message>
+        <source>writing the report</source>
+        <translation>Bericht wird geschrieben</translation>
+    </message>
+    <message>
+        <source>z {:.2f} to {:.2f} mm</source>
+        <translation>z {:.2f} bis {:.2f} mm</translation>
+    </message>
+    <message>
+        <source>{:.0f} % of the end after</source>
+        <translation>{:.0f} % des Endwerts nach</translation>
+    </message>
+    <message>
+        <source>{} (before {}), {}</source>
+        <translation>{} (vorher {}), {}</translation>
+    </message>
+    <message>
+        <source>{} of {} {} left out: {} {} missing or cannot be read.</source>
+        <translation>{} von {} {} ausgelassen: {} {} fehlt oder ist nicht lesbar.</translation>
+    </message>
+    <message>
+        <source>{} of {} {} not captured.</source>
+        <translation>{} von {} {} nicht aufgenommen.</translation>
+    </message>
+    <message>
+        <source>{}, relative to {}. Compensation = −deviation: what is added to the command.</source>
+        <translation>{}, bezogen auf {}. Kompensation = −Abweichung: was zum Sollwert addiert wird.</translation>
+    </message>
+    <message>
+        <source>{}Inputs: {}. Quality in free run, without looking at the measured output.</source>
+        <translation>{}Eingänge: {}. Güte im freien Lauf, ohne den gemessenen Ausgang anzusehen.</translation>
+    </message>
+    <message>
+        <source>The reference of the files follows in English, as their keys are. That of the commands is in the English manual.</source>
+        <translation>Das Nachschlagewerk der Dateien folgt auf Englisch, wie ihre Schlüssel. Das der Befehle steht im englischen Handbuch.</translation>
+    </message>
+    <message>
+        <source>(proposed)</source>
+        <translation>(vorgeschlagen)</translation>
+    </message>
+    <message>
+        <source>ambient</source>
+        <translation>Umgebung</translation>
+    </message>
+    <message>
+        <source>ball screw</source>
+        <translation>Kugelgewindetrieb</translation>
+    </message>
+    <message>
+        <source>gain</source>
+        <translation>Verstärkung</translation>
+    </message>
+    <message>
+        <source>gain lift</source>
+        <translation>Verstärkung, Hub</translation>
+    </message>
+    <message>
+        <source>housing</source>
+        <translation>Gehäuse</translation>
+    </message>
+    <message>
+        <source>linear motor</source>
+        <translation>Linearmotor</translation>
+    </message>
+    <message>
+        <source>linear scale</source>
+        <translation>Längenmesssystem</translation>
+    </message>
+    <message>
+        <source>named</source>
+        <translation>benannt</translation>
+    </message>
+    <message>
+        <source>remains</source>
+        <translation>verbleibt</translation>
+    </message>
+    <message>
+        <source>rotary</source>
+        <translation>Drehtisch</translation>
+    </message>
+    <message>
+        <source>rotary encoder</source>
+        <translation>Drehgeber</translation>
+    </message>
+    <message>
+        <source>spindle</source>
+        <translation>Spindel</translation>
+    </message>
+    <message>
+        <source>stylus</source>
+        <translation>Tastereinsatz</translation>
+    </message>
+    <message>
+        <source>time constant off</source>
+        <translation>Zeitkonstante aus</translation>
+    </message>
+    <message>
+        <source>time constant on</source>
+        <translation>Zeitkonstante an</translation>
+    </message>
+    <message>
+        <source>{} (reference)</source>
+        <translation>{} (Bezug)</translation>
+    </message>
+    <message>
+        <source>{} after</source>
+        <translation>{} nachher</translation>
+    </message>
+    <message>
+        <source>{} along X</source>
+        <translation>{} entlang X</translation>
+    </message>
+    <message>
+        <source>{} along Y</source>
+        <translation>{} entlang Y</translation>
+    </message>
+    <message>
+        <source>{} before</source>
+        <translation>{} vorher</translation>
+    </message>
+    <message>
+        <source>{} focus</source>
+        <translation>{} Fokus</translation>
+    </message>
+    <message>
+        <source>{} rotation</source>
+        <translation>{} Drehung</translation>
+    </message>
+    <message>
+        <source>certified at {:g} °C</source>
+        <translation>kalibriert bei {:g} °C</translation>
+    </message>
+    <message>
+        <source>expansion {:g} µm/(m K)</source>
+        <translation>Ausdehnung {:g} µm/(m K)</translation>
+    </message>
+    <message>
+        <source>holes of {:g} mm</source>
+        <translation>Bohrungen von {:g} mm</translation>
+    </message>
+    <message>
+        <source>radius {:g} mm</source>
+        <translation>Radius {:g} mm</translation>
+    </message>
+    <message>
+        <source>uncertainty of the certificate {:g} µm</source>
+        <translation>Unsicherheit des Kalibrierscheins {:g} µm</translation>
+    </message>
 </context>
 <context>
     <name>help</name>
@@ -16021,7 +17617,7 @@ einsatz</translation>
     </message>
     <message>
         <source>linear scale</source>
-        <translation>Linearmaßstab</translation>
+        <translation>Längenmesssystem</translation>
     </message>
     <message>
         <source>fiducial</source>
@@ -16619,6 +18215,14 @@ einsatz</translation>
     <message>
         <source>Ctrl+Shift+R</source>
         <translation>Ctrl+Shift+R</translation>
+    </message>
+    <message>
+        <source>Setting the manual</source>
+        <translation>Das Handbuch wird gesetzt</translation>
+    </message>
+    <message>
+        <source>Manual in En&amp;glish …</source>
+        <translation>Handbuch auf &amp;Englisch …</translation>
     </message>
 </context>
 <context>
@@ -18831,6 +20435,22 @@ einsatz</translation>
     <message>
         <source>Name (empty: by hand)</source>
         <translation>Name (leer: von Hand)</translation>
+    </message>
+    <message>
+        <source>Language</source>
+        <translation>Sprache</translation>
+    </message>
+    <message>
+        <source>Language of the report</source>
+        <translation>Sprache des Berichts</translation>
+    </message>
+    <message>
+        <source>The report is written in both languages: the one that is shown is printed and saved</source>
+        <translation>Der Bericht wird in beiden Sprachen geschrieben: die gezeigte wird gedruckt und gespeichert</translation>
+    </message>
+    <message>
+        <source>This report was written in English only.</source>
+        <translation>Dieser Bericht wurde nur auf Englisch geschrieben.</translation>
     </message>
 </context>
 <context>
@@ -22398,8 +24018,8 @@ einsatz</translation>
         <translation>Warten, bis das Messgerät eingelaufen ist; bis dahin würde seine Drift für Drift der Maschine gehalten.</translation>
     </message>
     <message>
-        <source>Take every capture of the plan, and repeat those that cannot be used while you are at the machine.</source>
-        <translation>Jede Aufnahme des Plans machen und unbrauchbare wiederholen, solange man an der Maschine steht.</translation>
+        <source>Take every capture of the plan, and repeat those that fail the check while you are at the machine.</source>
+        <translation>Jede Aufnahme des Plans machen und wiederholen, was die Prüfung nicht besteht, solange man an der Maschine steht.</translation>
     </message>
     <message>
         <source>Find the centre of rotation, the axis directions and the heights, and turn captures into deviations.</source>

@@ -22,9 +22,12 @@ FORMATS = TOP / "widgets/common/core_formats"
 # Beside the folders of core: words, counts and headings that are put together, and texts of the window.
 WORDS_FILE, WINDOW_FILE = "words", "window"
 CATALOGUES = TOP / "resources/translations"
-# Reports, decks for solvers and the reference of the command line are documents of their own: English.
-LEFT_OUT = re.compile(r"core/(reporting/|finite_elements/)|report|core/workflows/(manual|file_)|core/base/program_reference|"
+# Decks for solvers, the reference of files and of the command line are documents of their own: English.
+LEFT_OUT = re.compile(r"core/finite_elements/|core/workflows/file_|core/base/program_reference|"
                       r"core/plant/plant_schema|core/discrepancy/catalogue\.h")
+# Headings and titles of columns in reports are often a single word.
+OF_REPORTS = re.compile(r"core/(reporting/|\w+/\w*report|workflows/manual\.cpp)")
+TITLE = re.compile(r"[A-Z][a-z]+:?")
 # Arguments of these are for machines or for programmers.
 NOT_SHOWN = {"SPINDRIFT_ASSERT", "guarded", "writing", "prepare", "log", "demand", "send", "set_pattern", "set_name",
              "format_error", "starts_with", "ends_with", "rfind", "find", "selectResults", "writeFileAtomically", "open",
@@ -33,11 +36,15 @@ TOKEN = re.compile(r'//[^\n]*|/\*.*?\*/|R"(\w*)\((?:.*?)\)\1"|"((?:[^"\\\n]|\\.)
                    r'|[A-Za-z_]\w*|\d[\w.\']*|::|->|<<|\S', re.S)
 # Sentences that core puts together in more than one place.
 COMPOSED = ("squareness of {} to {}", "{} = {}, before {}",
-            "{} of {} captures failed the check. Take them again, or exclude them.")
+            "{} of {} captures failed the check. Take them again, or exclude them.", "{} before", "{} after", "{} (reference)",
+            "{} focus", "{} rotation", "{} along X", "{} along Y", "radius {:g} mm", "holes of {:g} mm", "certified at {:g} °C",
+            "expansion {:g} µm/(m K)", "uncertainty of the certificate {:g} µm")
 # Words that stand alone.
 ALONE = ("push broom", "α about X", "β about Y", "γ about Z", "and", "or", "measured", "simulation", "one", "two", "three", "four", "five", "focus", "spindle changed", "re-levelled", "crash", "repair", "moved", "note", "tilt", "rotation", "Signatures", "Where simulation and measurement disagree", "converged", "degenerate", "no convergence", "rejected", "artefact", "bed", "column", "coolant", "instrument", "room",
-         "table", "rotary drive")
-# A report is English, but the window lists its sections.
+         "table", "rotary drive", "before", "after", "noise", "added", "ahead of", "behind", "effects", "remainder", "cycle",
+         "none", "remains", "named", "(proposed)", "ambient", "spindle", "housing", "rotary", "stylus", "ball screw", "rotary encoder",
+         "linear scale", "linear motor", "gain", "gain lift", "time constant", "time constant on", "time constant off")
+# The window lists the sections of a report.
 HEADING = re.compile(r'(?:\bsection\((?:fmt::format\()?|\bsections\.(?:push_back|emplace_back)\(\{?)\s*"([^"]+)"')
 INSTRUMENT = re.compile(r'if \(instrument == "\w+"\) return "([^"]+)";')
 # Help is XHTML with drawings: every block of it is a text of its own, with its marks (widgets/common/help_text.cpp).
@@ -45,7 +52,7 @@ HELP_BLOCKS = {"h3", "h4", "p", "li", "td", "text"}
 PLACEHOLDER = re.compile(r"\{[^{}]*(?:\{\}[^{}]*)*\}")
 STATEMENT = re.compile(r"\s*(select|insert|update|delete|create|drop|alter|pragma|where|from|order by|for update|begin "
                        r"|set [a-z_.]+ =|set default_|setp |sets |addf |net |newsig |show (pin|sig)|timeout |bigint |integer "
-                       r"|do \$|while (executing|preparing)$|  +|--(wrap|dependency)=|TCH |FN |L [XZ{]|%Y|%\d)")
+                       r"|do \$|page=\{|DejaVu |Inter, |while (executing|preparing)$|  +|--(wrap|dependency)=|TCH |FN |L [XZ{]|%Y|%\d)")
 MARKUP = re.compile(r'</|<\w+[ >]|=\\"|^#|^\*[A-Z]|\\n.*\\n', re.S)
 WORDS = re.compile(r"[A-Za-z}][.,:;)'\"\\]* +\S|^ +[a-z]{2}|[a-z]{2}: *$")
 
@@ -90,7 +97,8 @@ def coreFormats():
         if path.suffix not in (".cpp", ".h") or LEFT_OUT.search(name):
             continue
         for text, before, calls, after in literals(path.read_text(encoding="utf-8")):
-            if any(call in NOT_SHOWN for call in calls) or not isSentence(text):
+            title = TITLE.fullmatch(text) and OF_REPORTS.match(name)
+            if any(call in NOT_SHOWN for call in calls) or not (title or isSentence(text)):
                 continue
             # What is joined with + to something else is part of a longer sentence.
             joined = "format" not in calls[-1:]
@@ -101,8 +109,7 @@ def coreFormats():
             found.setdefault(text.strip() if text.strip().strip("{}") == text.strip() else text, name)
     for path in sorted((TOP / "core").rglob("*.cpp")):
         text = path.read_text(encoding="utf-8")
-        if path.name != "manual.cpp":
-            found.update(dict.fromkeys(HEADING.findall(text) + INSTRUMENT.findall(text), ""))
+        found.update(dict.fromkeys(HEADING.findall(text) + INSTRUMENT.findall(text), ""))
     for path in sorted([*(TOP / "core").rglob("*.cpp"), *(TOP / "widgets").rglob("*.cpp")]):
         for text in counts(path.read_text(encoding="utf-8")):
             found.setdefault(text, "")

@@ -163,6 +163,7 @@ class Catalogue {
         consider(std::move(inner));
       } else {
         consider(otherwiseWritten(english, depth));
+        consider(titleWithUnit(english, depth));
         consider(inParts(english, depth));
       }
     }
@@ -210,6 +211,16 @@ class Catalogue {
     Rendered text = whole(english.front().toLower() + english.mid(1), depth);
     if (text.known > 0) text.text = sentenceStart(text.text);
     return text;
+  }
+
+  /// "gain / µm/(m² K)".
+  Rendered titleWithUnit(const QString& english, int depth) {
+    static const QString border = QStringLiteral(" / ");
+    const qsizetype at = english.lastIndexOf(border);
+    if (at <= 0 || english.size() > longest_list) return {};
+    Rendered title = rendered(english.left(at), depth + 1);
+    title.text += english.mid(at);
+    return title;
   }
 
   /// Several sentences in a row, "file, line 12: sentence", "one; other", "this, that".

@@ -9,6 +9,12 @@
 #include <algorithm>
 #include <array>
 #include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "core/reporting/report_language.h"
+#include "widgets/common/core_sentence.h"
 
 // The catalogues lie in a static library: without this the linker leaves them out. It must stand outside of all
 // namespaces.
@@ -93,6 +99,12 @@ void applyLanguage(const QString& code) {
   now.catalogues[1] =
       catalogue(QStringLiteral("qtbase_") + now.code, QLibraryInfo::path(QLibraryInfo::TranslationsPath));
   QLocale::setDefault(numbersOf(now.code));
+  std::optional<ReportLanguage> of_reports;
+  if (now.code != availableLanguages().front().code) {
+    of_reports = ReportLanguage{now.code.toStdString(),
+                                [](const std::string& english) { return coreSentence(english).toStdString(); }};
+  }
+  offerReportLanguage(std::move(of_reports));
   static QObject* keys = nullptr;
   if (keys == nullptr) {
     keys = new DecimalKeys(QCoreApplication::instance());

@@ -2,7 +2,8 @@
 // The language of the window: which there are, which is wanted, and its catalogues of texts.
 //
 // Texts of the window stand in tr(); sentences of core are looked up by their English format (core_sentence.h); numbers
-// are written as the language writes them (numbers.h). Files, reports and the command line stay English, with a point.
+// are written as the language writes them (numbers.h). Files and the command line stay English, with a point; reports are
+// written in English and in the language of the window.
 #pragma once
 
 #include <QLocale>
@@ -24,7 +25,8 @@ struct Language {
 [[nodiscard]] QString systemLanguage();
 
 /// Installs the catalogues of the program and of Qt and the way to write numbers; "" is the language of the system,
-/// what is not available is English. To be called before the first window is made: texts that are shown already stay.
+/// what is not available is English; offers it for reports (core/reporting/report_language.h). To be called before the
+/// first window is made: texts that are shown already stay.
 void applyLanguage(const QString& code);
 
 /// The code that applyLanguage() has settled on; "en" before.

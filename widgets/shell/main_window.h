@@ -87,6 +87,9 @@ class MainWindow : public QMainWindow {
   /// A new session with an empty campaign of this machine (machine.json), at the step Machine.
   void startMeasurement(const nlohmann::json& machine);
   NotesDialog* openNotes();  ///< null if nothing is open
+  void openManual(const QString& file);
+  /// The manual in the language of the window: set by a job the first time.
+  void openTranslatedManual();
   void openEffects();        ///< the list of effects of the step Discrepancy
   /// Runs every result of the campaign that does not hold any more, and says what stays outdated.
   void runOutdated();

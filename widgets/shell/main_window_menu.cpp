@@ -19,6 +19,7 @@
 #include "core/base/atomic_file.h"
 #include "core/base/error.h"
 #include "widgets/common/core_sentence.h"
+#include "widgets/common/languages.h"
 #include "widgets/common/parts.h"
 #include "widgets/common/preferences.h"
 #include "widgets/jobs/job_bar.h"
@@ -36,6 +37,28 @@
 #include "widgets/theme/icons.h"
 
 namespace spindrift::gui {
+
+void MainWindow::openManual(const QString& file) {
+  if (file.isEmpty()) {
+    tell(tr("The manual is not installed; \"spindrift-cli manual --out manual.pdf\" writes it."));
+    return;
+  }
+  auto* manual = new ManualWindow(file, this);
+  manual->setAttribute(Qt::WA_DeleteOnClose);
+  manual->show();
+}
+
+void MainWindow::openTranslatedManual() {
+  Job job;
+  job.title = tr("Setting the manual");
+  job.queue = JobQueue::Display;
+  job.work = [this, file = translatedManualFile()](JobContext& context) -> std::function<void()> {
+    writeTranslatedManual(file, context);
+    return [this, file] { openManual(file); };
+  };
+  job.failed = [this](const QString& sentence) { tell(sentence); };
+  jobs().run(std::move(job));
+}
 
 void MainWindow::buildMenu() {
   const auto add = [this](QMenu* menu, const QString& text, const char* icon_name, const QKeySequence& keys,
@@ -165,16 +188,10 @@ void MainWindow::buildMenu() {
   });
   help_action_->setCheckable(true);
   help_action_->setChecked(QSettings().value(QStringLiteral("help"), false).toBool());
-  add(help, tr("&Manual …"), "note", QKeySequence(Qt::SHIFT | Qt::Key_F1), [this] {
-    const QString file = manualFile();
-    if (file.isEmpty()) {
-      tell(tr("The manual is not installed; \"spindrift-cli manual --out manual.pdf\" writes it."));
-      return;
-    }
-    auto* manual = new ManualWindow(file, this);
-    manual->setAttribute(Qt::WA_DeleteOnClose);
-    manual->show();
-  });
+  const bool translated = currentLanguage() != availableLanguages().front().code;
+  add(help, tr("&Manual …"), "note", QKeySequence(Qt::SHIFT | Qt::Key_F1),
+      [this, translated] { translated ? openTranslatedManual() : openManual(manualFile()); });
+  if (translated) add(help, tr("Manual in En&glish …"), "note", {}, [this] { openManual(manualFile()); });
   add(help, tr("What's &new …"), "info", {}, [this] { showNews(); });
   help->addSeparator();
   add(help, tr("&What if …"), "model", QKeySequence(tr("Ctrl+Shift+W")), [this] { openWhatIf(); });

@@ -2,12 +2,21 @@
 #include "widgets/shell/manual_window.h"
 
 #include <QCoreApplication>
+#include <QDateTime>
+#include <QDir>
 #include <QFileInfo>
 #include <QHBoxLayout>
 #include <QListWidget>
+#include <QStandardPaths>
 #include <QTimer>
+#include <optional>
 #include <utility>
 
+#include "core/base/atomic_file.h"
+#include "core/base/error.h"
+#include "core/reporting/report_language.h"
+#include "core/workflows/manual.h"
+#include "widgets/common/languages.h"
 #include "widgets/report/page_view.h"
 
 namespace spindrift::gui {
@@ -18,6 +27,21 @@ QString manualFile() {
     if (file.isFile()) return file.canonicalFilePath();
   }
   return {};
+}
+
+QString translatedManualFile() {
+  return QDir(QStandardPaths::writableLocation(QStandardPaths::CacheLocation))
+      .filePath(QStringLiteral("manual-%1-%2.pdf").arg(QStringLiteral(SPINDRIFT_VERSION), currentLanguage()));
+}
+
+void writeTranslatedManual(const QString& file, const JobContext& job) {
+  const std::optional<ReportLanguage>& language = offeredReportLanguage();
+  SPINDRIFT_ASSERT(language, "the window has another language than English");
+  if (QFileInfo(file).isFile() &&
+      QFileInfo(file).lastModified() > QFileInfo(QCoreApplication::applicationFilePath()).lastModified())
+    return;
+  QDir().mkpath(QFileInfo(file).path());
+  writeFileAtomically(file.toStdString(), pdfOf(manualIn(*language), job).bytes);
 }
 
 ManualWindow::ManualWindow(const QString& file, QWidget* parent)

@@ -5,6 +5,7 @@
 #include <QDialog>
 #include <memory>
 
+#include "core/base/job_context.h"
 #include "widgets/report/report_pages.h"
 
 class QListWidget;
@@ -13,8 +14,12 @@ namespace spindrift::gui {
 
 class PageView;
 
-/// Where the manual of this program is: installed, or in the folder it was built in; empty if at neither place.
+/// Where the English manual of this program is: installed, or in the folder it was built in; empty if at neither place.
 [[nodiscard]] QString manualFile();
+/// Where the manual in the language of the window is kept once it was written: in the user's cache, by its version.
+[[nodiscard]] QString translatedManualFile();
+/// Writes it there unless it is there. Throws InputError; to be called in a job.
+void writeTranslatedManual(const QString& file, const JobContext& job);
 
 class ManualWindow : public QDialog {
   Q_OBJECT

@@ -42,7 +42,7 @@ QString stepInstruction(StepId step) {
           "Wait until the instrument has settled; until then its drift would be mistaken for drift of the machine.");
     case StepId::Capture:
       return Workflow::tr(
-          "Take every capture of the plan, and repeat those that cannot be used while you are at the machine.");
+          "Take every capture of the plan, and repeat those that fail the check while you are at the machine.");
     case StepId::Calibrate:
       return Workflow::tr(
           "Find the centre of rotation, the axis directions and the heights, and turn captures into deviations.");

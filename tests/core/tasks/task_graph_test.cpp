@@ -5,7 +5,9 @@
 
 #include <set>
 
+#include "core/base/atomic_file.h"
 #include "core/base/error.h"
+#include "core/reporting/report_language.h"
 #include "core/tasks/report_task.h"
 #include "core/tasks/task_work.h"
 #include "tests/core/tasks/tasks_support.h"
@@ -228,6 +230,47 @@ TEST(TaskGraph, AReportIsMadeFromWhatIsStoredAndSaysWhatDoesNotHold) {
   EXPECT_EQ(task.options.stored.verification.at("verdict"), "met") << "told all the same";
   EXPECT_EQ(task.options.stored.changed.at("verify"),
             "files of the campaign, the options and the evaluation is outdated");
+}
+
+/// The English report is the same whoever writes it; what a program offers beside it makes neither outdated.
+TEST(ReportTask, WritesInTheLanguageThatTheProgramOffersToo) {
+  const testing::TempFolder folder;
+  folder.write("c/campaign.json", R"({"format":"spindrift-campaign","version":1,"name":"mill 7",
+                                      "start_utc":"2026-01-31T08:00:00Z"})");
+  folder.write("c/machine.json", R"({"format":"spindrift-machine","version":1,"name":"mill","chain":"V [w-X'-Y'-b-Z-t]",
+                                     "axes":[{"name":"X","travel_mm":[0,300]},{"name":"Y","travel_mm":[0,300]},
+                                             {"name":"Z","travel_mm":[0,300]}]})");
+  ObservationSet observations;
+  for (const double time_s : {0.0, 3600.0}) {
+    Observation o;
+    o.time_s = time_s;
+    o.state = time_s > 0.0 ? "M1" : "M0";
+    o.point = "P1";
+    o.sigma = 0.5;
+    o.value = time_s / 1000.0;
+    o.instrument = "probe";
+    observations.rows.push_back(o);
+  }
+  observations.write(folder / "c/observations.csv");
+  ReportTask task;
+  task.campaign = std::make_shared<Campaign>(Campaign::read(folder / "c"));
+  task.folder = folder / "s";
+  task.name = "reports/report-1";
+  JobContext job;
+  const auto file = [&](const std::string& name) { return readFile(task.folder / name); };
+  const WrittenReport english = task.run(job);
+  EXPECT_FALSE(english.json().contains("translations"));
+  EXPECT_THAT(file(english.html), HasSubstr("<html lang=\"en\">"));
+  offerReportLanguage(ReportLanguage{"de", [](const std::string& text) { return "<" + text + ">"; }});
+  const WrittenReport both = task.run(job);
+  offerReportLanguage({});
+  const nlohmann::json german = both.json().at("translations").at("de");
+  EXPECT_EQ(both.html, english.html);
+  EXPECT_THAT(file(both.html), HasSubstr("<html lang=\"en\">"));
+  EXPECT_THAT(file(german.at("file")), HasSubstr("<html lang=\"de\">"));
+  EXPECT_THAT(file(german.at("file")), HasSubstr("&lt;Campaign&gt;"));
+  EXPECT_TRUE(file(german.at("pdf")).starts_with("%PDF-"));
+  EXPECT_TRUE(file(both.pdf).starts_with("%PDF-"));
 }
 
 TEST(TaskGraph, TheSecondCampaignOfAVerificationIsAnInput) {

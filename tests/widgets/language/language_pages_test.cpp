@@ -25,12 +25,17 @@
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string>
+#include <variant>
+#include <vector>
 
 #include "core/base/atomic_file.h"
 #include "core/discrepancy/catalogue.h"
 #include "core/machine/campaign.h"
 #include "core/plant/batch_queue.h"
 #include "core/plant/plant_store.h"
+#include "core/reporting/report_language.h"
+#include "core/tasks/report_task.h"
+#include "core/workflows/manual.h"
 #include "tests/widgets/support/story_support.h"
 #include "widgets/common/help_text.h"
 #include "widgets/common/languages.h"
@@ -217,6 +222,47 @@ class LanguagePagesTest : public StoryTest {
       if (action->toolTip() != action->text()) take(action->toolTip());
     }
   }
+  /// Every text that a report shows, code and the small print of ids apart.
+  void expectTranslated(const std::vector<ReportBlock>& blocks, const std::string& what,
+                        const std::set<QString>& names) {
+    const auto take = [&](const std::string& english) {
+      QString plain = QString::fromStdString(english).trimmed();
+      QString name = plain;  // a name that people gave may be words that the catalogue knows
+      name.remove(QChar(begin_mark)).remove(QChar(end_mark));
+      if (names.contains(name)) return;
+      for (const QString& formula : formulas()) plain.remove(formula);
+      const QStringList words = wordsOf(unmarked(plain));
+      if (!words.isEmpty() && told_.insert(plain).second) {
+        ADD_FAILURE() << what << ": \"" << plain.toStdString() << "\" (" << words.join(QLatin1Char(' ')).toStdString()
+                      << ")";
+      }
+    };
+    const auto takeText = [&](const ReportText& text) {
+      for (const ReportText::Run& run : text.runs) {
+        if (!run.small) take(run.text);
+      }
+    };
+    for (const ReportBlock& block : blocks) {
+      if (const auto* heading = std::get_if<HeadingBlock>(&block)) takeText(heading->text);
+      if (const auto* text = std::get_if<TextBlock>(&block)) takeText(text->text);
+      if (const auto* callout = std::get_if<CalloutBlock>(&block)) takeText(callout->text);
+      if (const auto* table = std::get_if<TableBlock>(&block)) {
+        take(table->caption);
+        for (const ReportText& cell : table->header) takeText(cell);
+        for (const ReportRow& row : table->rows) {
+          for (const ReportText& cell : row) takeText(cell);
+        }
+      }
+      if (const auto* figure = std::get_if<FigureBlock>(&block)) {
+        take(figure->caption);
+        std::string texts;  // a sentence may go on in the next line
+        for (const Drawing::Shape& shape : figure->drawing.shapes()) {
+          if (const auto* text = std::get_if<Drawing::Text>(&shape)) texts += text->text + " ";
+        }
+        take(texts);
+      }
+    }
+  }
 
  private:
   std::unique_ptr<Marks> marks_;
@@ -229,6 +275,14 @@ TEST_P(LanguageOfPages, NoTextIsLeftOutOfTheTranslation) {
   expectTranslated(*window_, "first screen");
   window_->helpAction()->trigger();
   walk(QString::fromLatin1(GetParam()), [this](const std::string& what) { expectTranslated(*window_, what); });
+  // The report of all that.
+  SessionModel& session = window_->session();
+  const ReportTask task = ReportTask::of(session.tasks(), session.excludedItems());
+  JobContext job;
+  const Report report = inLanguage(reportOfCampaign(*task.campaign, task.options, job), *offeredReportLanguage());
+  std::set<QString> names = namesIn(nlohmann::json::parse(readFile(session.campaign()->path("machine.json"))));
+  names.insert(QString::fromStdString(session.campaign()->name));
+  expectTranslated(report.blocks(), std::string(GetParam()) + ", report", names);
 }
 
 INSTANTIATE_TEST_SUITE_P(Demos, LanguageOfPages,
@@ -378,6 +432,24 @@ TEST_F(LanguageOfWindows, NoTextOfWindowsAndDialogsIsLeftOut) {
   expectTranslatedAndClose(&exporting, "export");
   NewsDialog* news = new NewsDialog(window_.get());  // its text is a document
   expectTranslatedAndClose(news, "news");
+}
+
+TEST_F(LanguageOfWindows, TheManualIsGermanApartFromTheReferenceOfFiles) {
+  ASSERT_TRUE(offeredReportLanguage());
+  const Report manual = manualIn(*offeredReportLanguage());
+  // What people wrote in German, and what stands in English on purpose, is not looked at: what the program says is.
+  std::vector<ReportBlock> generated;
+  bool within = false;
+  for (const ReportBlock& block : manual.blocks()) {
+    const auto* heading = std::get_if<HeadingBlock>(&block);
+    if (heading != nullptr && heading->level == 1) {
+      const QString title = QString::fromStdString(heading->text.plain());
+      within = title.startsWith(QChar(begin_mark));
+    }
+    if (within) generated.push_back(block);
+  }
+  EXPECT_GT(generated.size(), 100U);
+  expectTranslated(generated, "manual", {});
 }
 
 TEST_F(LanguageOfWindows, NoTextOfThePlantIsLeftOut) {

@@ -310,7 +310,7 @@ TEST_F(LanguageTest, ListsWithinSentencesAreTranslatedToTheirLastWord) {
   EXPECT_EQ(coreSentence("temperature of spindle by 22.2 K, temperature of housing by 13.9 K and temperature of column "
                          "front by 4.2 K")
                 .toStdString(),
-            "Temperatur spindle um 22,2 K, Temperatur housing um 13,9 K und Temperatur Ständer vorn um 4,2 K");
+            "Temperatur Spindel um 22,2 K, Temperatur Gehäuse um 13,9 K und Temperatur Ständer vorn um 4,2 K");
   const QString german = coreSentence(
       "The thermal drift of the machine and a drift of the instrument cannot be separated here, because it was at work "
       "(spindle speed, feed X and feed Y) and temperatures changed (temperature of spindle by 22.2 K, temperature of "
@@ -330,7 +330,7 @@ TEST_F(LanguageTest, ListsWithinSentencesAreTranslatedToTheirLastWord) {
           .toStdString(),
       "Noch nicht bekannt: Drift von mehr als 1 µm/h ist möglich: EY −0,5 ± 0,5 µm/h; länger messen. Die "
       "thermische Drift der Maschine und eine Drift des Messgeräts sind hier nicht trennbar, weil sie in Betrieb war "
-      "(Spindeldrehzahl) und sich Temperaturen änderten (Temperatur spindle um 8,8 K, Temperatur housing um 6,0 K und "
+      "(Spindeldrehzahl) und sich Temperaturen änderten (Temperatur Spindel um 8,8 K, Temperatur Gehäuse um 6,0 K und "
       "Temperatur Ständer vorn um 2,4 K); einen Punkt der ruhenden Maschine immer wieder messen oder erklären, dass "
       "das Messgerät "
       "warm war.");

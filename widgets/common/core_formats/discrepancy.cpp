@@ -97,7 +97,6 @@ std::span<const char* const> spindrift::gui::core_formats::discrepancy() noexcep
     QT_TRANSLATE_NOOP("core", "a time history of its own"),
     QT_TRANSLATE_NOOP("core", "added by the user"),
     QT_TRANSLATE_NOOP("core", "added by the user; the data do not support it"),
-    QT_TRANSLATE_NOOP("core", "ahead of"),
     QT_TRANSLATE_NOOP("core", "all points"),
     QT_TRANSLATE_NOOP("core", "an expression for at least one of EX, EY, EZ, EA, EB, EC"),
     QT_TRANSLATE_NOOP("core", "an id that no effect of the catalogue has, or \"built_in\": false"),

@@ -17,6 +17,7 @@ namespace spindrift::gui::core_formats {
 [[nodiscard]] std::span<const char* const> math() noexcept;
 [[nodiscard]] std::span<const char* const> plant() noexcept;
 [[nodiscard]] std::span<const char* const> probing() noexcept;
+[[nodiscard]] std::span<const char* const> reporting() noexcept;
 [[nodiscard]] std::span<const char* const> scanning() noexcept;
 [[nodiscard]] std::span<const char* const> session() noexcept;
 [[nodiscard]] std::span<const char* const> simulation() noexcept;
@@ -37,6 +38,7 @@ inline constexpr std::span<const char* const> (*groups[])() noexcept = {
     math,
     plant,
     probing,
+    reporting,
     scanning,
     session,
     simulation,

@@ -165,7 +165,6 @@ std::span<const char* const> spindrift::gui::core_formats::machine() noexcept {
     QT_TRANSLATE_NOOP("core", "thermal expansion of the artefact per metre, from its reference hole"),
     QT_TRANSLATE_NOOP("core", "thermal expansion of the {} ball screw from its fixed bearing"),
     QT_TRANSLATE_NOOP("core", "third order in {}"),
-    QT_TRANSLATE_NOOP("core", "time constant"),
     QT_TRANSLATE_NOOP("core", "time of point {} runs backwards from {} s to {} s; allowed: rows of a point in order of time."),
     QT_TRANSLATE_NOOP("core", "time of {} runs backwards from {} s to {} s; allowed: rows of a point in order of time."),
     QT_TRANSLATE_NOOP("core", "two numbers x, y"),

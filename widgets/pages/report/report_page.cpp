@@ -2,12 +2,14 @@
 #include "widgets/pages/report/report_page.h"
 
 #include <QCheckBox>
+#include <QComboBox>
 #include <QDesktopServices>
 #include <QFileDialog>
 #include <QHBoxLayout>
 #include <QHeaderView>
 #include <QLabel>
 #include <QLineEdit>
+#include <QSettings>
 #include <QSplitter>
 #include <QStackedWidget>
 #include <QStandardPaths>
@@ -15,6 +17,8 @@
 #include <QTimer>
 #include <QUrl>
 #include <QVBoxLayout>
+#include <algorithm>
+#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "core/base/atomic_file.h"
@@ -23,6 +27,7 @@
 #include "core/tasks/task_options.h"
 #include "widgets/commands/commands.h"
 #include "widgets/common/core_sentence.h"
+#include "widgets/common/languages.h"
 #include "widgets/common/parts.h"
 #include "widgets/jobs/task_job.h"
 #include "widgets/models/rows_model.h"
@@ -34,6 +39,8 @@ namespace spindrift::gui {
 namespace {
 
 constexpr auto report_result = "report";
+constexpr auto english = "en";
+constexpr auto language_setting = "report/language";
 
 /// By the ending of `target`, .pdf or .html. Throws InputError.
 void saveCopy(const std::filesystem::path& html, const std::filesystem::path& pdf, const QString& target) {
@@ -75,6 +82,24 @@ ReportPage::ReportPage(PageContext page_context, QWidget* parent)
   connect(discrepancy_, &QCheckBox::clicked, this, [this](bool tell) {
     options_.change(tell ? tr("include the discrepancy analysis") : tr("omit the discrepancy analysis"),
                     [tell](ReportChoice& o) { o.tells_discrepancy = tell; });
+  });
+  language_title_ = makeLabel(tr("Language"), "secondaryText");
+  left->body()->addWidget(language_title_);
+  language_ = new QComboBox;
+  language_->setAccessibleName(tr("Language of the report"));
+  language_->setToolTip(tr("The report is written in both languages: the one that is shown is printed and saved"));
+  for (const Language& one : availableLanguages()) {
+    if (one.code == QLatin1String(english) || one.code == currentLanguage()) language_->addItem(one.own_name, one.code);
+  }
+  const QString kept = QSettings().value(QLatin1String(language_setting), currentLanguage()).toString();
+  language_->setCurrentIndex(std::max(0, language_->findData(kept)));
+  for (QWidget* w : {static_cast<QWidget*>(language_title_), static_cast<QWidget*>(language_)})
+    w->setVisible(language_->count() > 1);
+  left->body()->addWidget(language_);
+  connect(language_, &QComboBox::activated, this, [this] {
+    QSettings().setValue(QLatin1String(language_setting), language_->currentData());
+    shown_result_ = 0;
+    refresh();
   });
   facts_ = makeLabel({}, "secondaryText");
   facts_->setWordWrap(true);
@@ -122,8 +147,14 @@ ReportPage::ReportPage(PageContext page_context, QWidget* parent)
 
 std::filesystem::path ReportPage::storedFile(const char* key) {
   const StoredResult* stored = session().latest(report_result);
-  if (stored == nullptr || !stored->payload.contains(key)) return {};
-  return session().folder() / stored->payload.value(key, std::string());
+  if (stored == nullptr) return {};
+  const auto in = [&](const nlohmann::json& files) {
+    return files.is_object() && files.contains(key) ? session().folder() / files.value(key, std::string())
+                                                    : std::filesystem::path();
+  };
+  const nlohmann::json translations = stored->payload.value("translations", nlohmann::json::object());
+  const std::string language = language_->currentData().toString().toStdString();
+  return translations.contains(language) ? in(translations.at(language)) : in(stored->payload);
 }
 
 void ReportPage::refresh() {
@@ -152,8 +183,13 @@ void ReportPage::refresh() {
     shown_result_ = stored->id;
     openDocument();
   }
+  const QString language = language_->currentData().toString();
+  const bool written = language == QLatin1String(english) || stored->payload.contains("translations");
   if (const ResultState state = session().state(report_result); !state.current) {
     callout()->show(Tone::Outdated, tr("Changed since the report was written: %1.").arg(state.changed));
+    callout()->setAction(tr("Write again"), [this] { write(); });
+  } else if (!written) {
+    callout()->show(Tone::Neutral, tr("This report was written in English only."));
     callout()->setAction(tr("Write again"), [this] { write(); });
   } else {
     callout()->set(Tone::Neutral, {});

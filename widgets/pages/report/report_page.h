@@ -10,6 +10,7 @@
 #include "widgets/pages/page.h"
 
 class QCheckBox;
+class QComboBox;
 class QLabel;
 class QLineEdit;
 class QStackedWidget;
@@ -37,7 +38,9 @@ class ReportPage : public Page {
   [[nodiscard]] bool opening() const { return opening_ != nullptr; }
   [[nodiscard]] QLineEdit* operatorName() const { return operator_; }
   [[nodiscard]] PageView* pages() const { return pages_; }
-  /// The HTML file inside the session; empty if none was written.
+  /// In the language of the window or in English, as far as it was written so; hidden where the window is English.
+  [[nodiscard]] QComboBox* languageChoice() const { return language_; }
+  /// The HTML file inside the session, in the chosen language; empty if none was written.
   [[nodiscard]] std::filesystem::path file() { return storedFile("file"); }
   /// The same as PDF; empty also if an earlier version wrote it.
   [[nodiscard]] std::filesystem::path pdf() { return storedFile("pdf"); }
@@ -65,6 +68,8 @@ class ReportPage : public Page {
   EmptyState* empty_;
   QLineEdit* operator_;
   QCheckBox* discrepancy_;
+  QLabel* language_title_;
+  QComboBox* language_;
   QLabel* facts_;
   RowsModel* sections_;
   QTableView* section_table_;

@@ -273,7 +273,7 @@ void WhatPanel::showEffect() {
     for (const FittedParameter& p : e->parameters) {
       Row row;
       row.id = QString::fromStdString(p.name);
-      Cell name{QString::fromStdString(spindrift::parameterTitle(p.name))};
+      Cell name{coreSentence(spindrift::parameterTitle(p.name))};
       name.tip = row.id;
       row.cells = {
           name, rightCell(shownNumbers(QString::fromStdString(withUncertainty(p.value, p.standard_uncertainty, ""))))};

@@ -5,6 +5,7 @@
 
 #include <poppler-qt6.h>
 
+#include <QComboBox>
 #include <QImage>
 #include <QLineEdit>
 #include <QPushButton>
@@ -18,6 +19,7 @@
 #include "tests/support/temp_folder.h"
 #include "tests/widgets/support/story_support.h"
 #include "widgets/commands/commands.h"
+#include "widgets/common/languages.h"
 #include "widgets/common/parts.h"
 #include "widgets/pages/discrepancy/discrepancy_page.h"
 #include "widgets/theme/theme.h"
@@ -163,6 +165,56 @@ TEST_F(ReportPageTest, WritesShowsAndSaves) {
   page_->saveTo(QStringLiteral("/proc/nowhere/report.pdf"));
   wait();
   EXPECT_EQ(page_->callout()->tone(), Tone::Bad);
+}
+
+TEST_F(ReportPageTest, AnEnglishWindowOffersNoOtherLanguage) {
+  writeReport();
+  EXPECT_FALSE(page_->languageChoice()->isVisible());
+  EXPECT_FALSE(window_->session().latest("report")->payload.contains("translations"));
+}
+
+class GermanReportPageTest : public ReportPageTest {
+ protected:
+  void SetUp() override {
+    applyLanguage(QStringLiteral("de"));
+    ReportPageTest::SetUp();
+  }
+  void TearDown() override {
+    ReportPageTest::TearDown();
+    applyLanguage(QStringLiteral("en"));
+  }
+  void choose(const char* language) {
+    QComboBox* choice = page_->languageChoice();
+    choice->setCurrentIndex(choice->findData(QLatin1String(language)));
+    Q_EMIT choice->activated(choice->currentIndex());
+    wait();
+  }
+  [[nodiscard]] QString firstSection() const { return page_->document()->sections().front().title; }
+};
+
+/// Both are written at once: which is shown, printed and saved is the reader's choice and outdates nothing.
+TEST_F(GermanReportPageTest, ShowsTheReportInEitherLanguage) {
+  writeReport();
+  ASSERT_TRUE(page_->languageChoice()->isVisible());
+  EXPECT_EQ(firstSection(), QStringLiteral("Zusammenfassung"));
+  const std::string german = readFile(page_->file());
+  EXPECT_NE(german.find("<html lang=\"de\">"), std::string::npos);
+  EXPECT_NE(german.find("In der Simulation"), std::string::npos) << "what was found";
+  EXPECT_NE(german.find("spindle.growth.z"), std::string::npos) << "ids stay";
+  EXPECT_EQ(german.find("standard uncertainty"), std::string::npos);
+  choose("en");
+  EXPECT_EQ(firstSection(), QStringLiteral("Summary"));
+  EXPECT_NE(readFile(page_->file()).find("<html lang=\"en\">"), std::string::npos);
+  EXPECT_EQ(state(), StepState::Current);
+  const QString saved = QString::fromStdString((folder_ / "report.pdf").string());
+  page_->saveTo(saved);
+  wait();
+  EXPECT_EQ(readFile(folder_ / "report.pdf"), readFile(page_->pdf())) << "what is shown is what is saved";
+  // The choice is remembered for the next window.
+  window_ = std::make_unique<MainWindow>();
+  window_->show();
+  open(folder_ / "campaign", StepId::Report);
+  EXPECT_EQ(page<ReportPage>()->languageChoice()->currentData().toString(), QStringLiteral("en"));
 }
 
 TEST_F(ReportPageTest, TurnsOutdatedWithExclusionsAndEffects) {

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+// A report in another language. Reports are made in English; a program that has a catalogue of translations offers its
+// language once, at its start, and every report that is filed is written in that language too, beside the English one:
+// what is found is the same, so neither makes the other outdated.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "core/reporting/report.h"
+
+namespace spindrift {
+
+struct ReportLanguage {
+  std::string code;  ///< ISO 639-1, such as "de"
+  /// An English text of a report in the language: a sentence, a title, a number with its unit. Called from any thread.
+  std::function<std::string(const std::string& english)> words;
+};
+
+/// Nothing: English alone. Before any report is written, for the whole process.
+void offerReportLanguage(std::optional<ReportLanguage> language);
+[[nodiscard]] const std::optional<ReportLanguage>& offeredReportLanguage();
+
+/// Headings, texts, callouts, tables, captions and the texts in figures in the language. Ids of effects, code and
+/// pictures stay.
+[[nodiscard]] Report inLanguage(const Report& english, const ReportLanguage& language);
+/// A text by itself. An effect that stands by its title, with its id small beside it, keeps both.
+[[nodiscard]] ReportText inLanguage(const ReportText& english, const ReportLanguage& language);
+[[nodiscard]] Drawing inLanguage(const Drawing& english, const ReportLanguage& language);
+
+}  // namespace spindrift
