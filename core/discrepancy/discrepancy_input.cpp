@@ -18,7 +18,8 @@ namespace spindrift {
 namespace {
 
 void followClock(DiscrepancyInput& input, const PredictedAt& predicted) {
-  const auto clock = farSimulationClock(input.observations.rows, predicted);
+  auto clock = farSimulationClock(input.observations.rows, predicted);
+  if (!clock) clock = nearSimulationClock(input.observations.rows, predicted);
   if (!clock) return;
   input.log_clock_s = clock->offset_s;
   input.log_clock_uncertainty_s = clock->standard_uncertainty_s;
@@ -95,7 +96,7 @@ void compareRuns(const std::vector<Observation>& rows, const std::vector<double>
                   name, where));
 }
 
-/// `follow_clock`: compared at the time at which they agree, where that is far from their own.
+/// `follow_clock`: compared at the time at which they agree, where that is not their own.
 DiscrepancyInput withSimulation(const Campaign& campaign, ObservationSet observations, const std::string& name,
                                 bool follow_clock) {
   DiscrepancyInput input = withoutSimulation(campaign, std::move(observations));

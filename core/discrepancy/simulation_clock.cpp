@@ -34,7 +34,9 @@ struct Compared {
   }
 };
 
-Compared comparedSeries(const std::vector<Observation>& observations, const PredictedAt& predicted) {
+/// Of readings that are predicted at all times up to `reach_s` earlier and later, so that what is left at one offset is
+/// left of the same readings at another.
+Compared comparedSeries(const std::vector<Observation>& observations, const PredictedAt& predicted, double reach_s) {
   std::map<SeriesKey, std::vector<std::pair<const Observation*, double>>> series;
   for (const Observation& o : observations) {
     if (o.use == ObservationUse::Fit && o.sigma > 0.0) series[{o.point, o.component}].emplace_back(&o, 0.0);
@@ -45,6 +47,11 @@ Compared comparedSeries(const std::vector<Observation>& observations, const Pred
   const std::size_t stride = std::max<std::size_t>(1, observations.size() / most_observations);
   std::size_t index = 0;
   for (auto& [key, members] : series) {
+    if (reach_s > 0.0)
+      std::erase_if(members, [&](const auto& member) {
+        const Observation& o = *member.first;
+        return !std::isfinite(predicted(o, o.time_s - reach_s)) || !std::isfinite(predicted(o, o.time_s + reach_s));
+      });
     if (members.size() < fewest_in_series || index++ % stride != 0) continue;
     for (auto& [o, now] : members) {
       now = predicted(*o, o->time_s);
@@ -61,10 +68,19 @@ Compared comparedSeries(const std::vector<Observation>& observations, const Pred
 struct Left {
   double moved = 0.0;
   double now = 0.0;
-  /// `moved` by what may be wrong in common: a component in a quarter of the time.
-  std::map<std::pair<Component, int>, double> parts;
+  /// Both by what may be wrong in common: a component in a quarter of the time.
+  struct Part {
+    double moved = 0.0;
+    double now = 0.0;
+  };
+  std::map<std::pair<Component, int>, Part> parts;
 
   [[nodiscard]] double ratio() const { return now > 0.0 ? moved / now : 1.0; }
+  [[nodiscard]] double shareOfPartsWithLess() const {
+    const auto less =
+        std::count_if(parts.begin(), parts.end(), [](const auto& p) { return p.second.moved < p.second.now; });
+    return parts.empty() ? 0.0 : static_cast<double>(less) / static_cast<double>(parts.size());
+  }
 };
 
 Left leftAt(const Compared& compared, const PredictedAt& predicted, double offset_s) {
@@ -91,7 +107,9 @@ Left leftAt(const Compared& compared, const PredictedAt& predicted, double offse
     for (std::size_t i = 0; i < which.size(); ++i) {
       out.moved += moved[i];
       out.now += now[i];
-      out.parts[{which[i]->component, compared.quarterOf(which[i]->time_s)}] += moved[i];
+      Left::Part& part = out.parts[{which[i]->component, compared.quarterOf(which[i]->time_s)}];
+      part.moved += moved[i];
+      part.now += now[i];
     }
     count += static_cast<double>(moved.size());
   }
@@ -100,12 +118,43 @@ Left leftAt(const Compared& compared, const PredictedAt& predicted, double offse
   return out;
 }
 
+/// The offset between steps, `best_s` the one at which least is left, `least_s`: no clock is read better.
+SimulationClock between(const Compared& compared, const PredictedAt& predicted, double best_s, double step_s,
+                        double least_s) {
+  const Left at = leftAt(compared, predicted, best_s);
+  const Left low = leftAt(compared, predicted, best_s - step_s);
+  const Left high = leftAt(compared, predicted, best_s + step_s);
+  SimulationClock out{best_s, least_s, std::sqrt(at.ratio())};
+  const double curvature = low.moved + high.moved - 2.0 * at.moved;
+  if (!(low.moved > 0.0 && high.moved > 0.0 && curvature > 0.0)) return out;
+  out.offset_s += step_s * std::clamp(0.5 * (low.moved - high.moved) / curvature, -1.0, 1.0);
+  // What is missing in the simulation goes on for long and is the same at many points: the slopes of the parts say how
+  // far each of them would move the offset (the sandwich of Huber and White, parts as blocks).
+  double slopes = 0.0;
+  for (const auto& [part, value] : high.parts) {
+    const auto before = low.parts.find(part);
+    if (before != low.parts.end()) slopes += std::pow(0.5 * (value.moved - before->second.moved), 2);
+  }
+  const double scatter = at.moved / std::max(1.0, compared.count);
+  const double of_noise_s = step_s * std::sqrt(2.0 * scatter / curvature);
+  out.standard_uncertainty_s = std::hypot(least_s, std::max(step_s * std::sqrt(slopes) / curvature, of_noise_s));
+  return out;
+}
+
+constexpr double near_s = 600.0;
+
 }  // namespace
 
 std::string SimulationClock::sentence(bool followed) const {
   const double minutes = std::abs(offset_s) / 60.0;
   const char* way = offset_s > 0.0 ? "later" : "earlier";
   const double less = 100.0 * (1.0 - scatter);
+  if (std::abs(offset_s) <= near_s) {
+    return fmt::format(
+        "The observations agree better with the simulation of about {:.0f} s {} ({:.0f} % less scatter, in most "
+        "components and most of the time), so they are compared with simulation and log at that time.",
+        std::abs(offset_s), way, less);
+  }
   if (followed) {
     return fmt::format(
         "The observations agree far better with the simulation of about {:.0f} min {} ({:.0f} % less scatter), so they "
@@ -122,7 +171,7 @@ std::string SimulationClock::sentence(bool followed) const {
 
 std::optional<SimulationClock> farSimulationClock(const std::vector<Observation>& observations,
                                                   const PredictedAt& predicted) {
-  const Compared compared = comparedSeries(observations, predicted);
+  const Compared compared = comparedSeries(observations, predicted, 0.0);
   if (compared.series.empty()) return std::nullopt;
   constexpr double coarse_s = 600.0;
   constexpr double fine_s = 60.0;
@@ -146,24 +195,38 @@ std::optional<SimulationClock> farSimulationClock(const std::vector<Observation>
   }
   constexpr double far_s = 1200.0;
   if (std::abs(best_s) < far_s) return std::nullopt;
-  const Left at = leftAt(compared, predicted, best_s);
-  const Left low = leftAt(compared, predicted, best_s - fine_s);
-  const Left high = leftAt(compared, predicted, best_s + fine_s);
-  SimulationClock out{best_s, fine_s, std::sqrt(best)};
-  const double curvature = low.moved + high.moved - 2.0 * at.moved;
-  if (low.moved > 0.0 && high.moved > 0.0 && curvature > 0.0) {
-    out.offset_s += fine_s * std::clamp(0.5 * (low.moved - high.moved) / curvature, -1.0, 1.0);
-    // What is missing in the simulation goes on for long and is the same at many points: the slopes of the parts say
-    // how far each of them would move the offset (the sandwich of Huber and White, parts as blocks). No clock is read
-    // better than to the minute.
-    double slopes = 0.0;
-    for (const auto& [part, value] : high.parts) {
-      const auto before = low.parts.find(part);
-      if (before != low.parts.end()) slopes += std::pow(0.5 * (value - before->second), 2);
+  return between(compared, predicted, best_s, fine_s, fine_s);
+}
+
+std::optional<SimulationClock> nearSimulationClock(const std::vector<Observation>& observations,
+                                                   const PredictedAt& predicted) {
+  const Compared compared = comparedSeries(observations, predicted, near_s);
+  if (compared.series.empty()) return std::nullopt;
+  constexpr double coarse_s = 60.0;
+  constexpr double fine_s = 20.0;
+  double best_s = 0.0;
+  double best = 1.0;
+  const auto look = [&](double offset_s) {
+    const double ratio = leftAt(compared, predicted, offset_s).ratio();
+    if (ratio < best) {
+      best = ratio;
+      best_s = offset_s;
     }
-    out.standard_uncertainty_s = std::hypot(fine_s, fine_s * std::sqrt(slopes) / curvature);
+  };
+  for (double offset_s = coarse_s; offset_s <= near_s; offset_s += coarse_s) {
+    look(offset_s);
+    look(-offset_s);
   }
-  return out;
+  const double about_s = best_s;
+  for (const double by_s : {-2.0 * fine_s, -fine_s, fine_s, 2.0 * fine_s}) look(about_s + by_s);
+  if (best_s == 0.0 || std::abs(best_s) > near_s - coarse_s) return std::nullopt;  // nothing, or not within minutes
+  constexpr double least_s = 2.0;
+  constexpr double many = 6.0;  // standard uncertainties: they do not know what is missing in the simulation
+  constexpr double most_parts = 0.6;
+  const SimulationClock clock = between(compared, predicted, best_s, fine_s, least_s);
+  if (std::abs(clock.offset_s) < many * clock.standard_uncertainty_s) return std::nullopt;
+  if (leftAt(compared, predicted, best_s).shareOfPartsWithLess() < most_parts) return std::nullopt;
+  return clock;
 }
 
 PredictedAt predictedBetween(const std::vector<Observation>& observations, const std::vector<double>& predicted) {

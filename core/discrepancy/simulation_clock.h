@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Observations whose clock is far from that of the simulation: an hour of summer time, a microscope's computer that was
-// never set. Internal to core/discrepancy.
+// Observations whose clock is not that of the simulation: far from it after an hour of summer time, or on a microscope's
+// computer that was never set; minutes from it on any two computers. Internal to core/discrepancy.
 //
 // A simulation is computed from the log, so its clock is that of the log. Where the observations agree far better with
 // what it predicts for another time, they are compared at that time, and so is the log.
@@ -35,6 +35,12 @@ using PredictedAt = std::function<double(const Observation&, double time_s)>;
 /// well be a missing effect. Large campaigns are judged by part of their series.
 [[nodiscard]] std::optional<SimulationClock> farSimulationClock(const std::vector<Observation>& observations,
                                                                 const PredictedAt& predicted);
+
+/// The same within minutes. A missing effect or a time constant that is off may look like a small offset as well, in
+/// its component, while it acts; a clock moves everything. So it is believed where it is many times its uncertainty and
+/// what is left is less in most components and quarters of the time.
+[[nodiscard]] std::optional<SimulationClock> nearSimulationClock(const std::vector<Observation>& observations,
+                                                                 const PredictedAt& predicted);
 
 /// From predictions at the times of the observations alone: linear in time between those of one series.
 [[nodiscard]] PredictedAt predictedBetween(const std::vector<Observation>& observations,

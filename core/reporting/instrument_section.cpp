@@ -244,7 +244,11 @@ void addCertificate(Report& document, const nlohmann::json& artefact) {
   const auto quantity = [](const nlohmann::json& from, const char* key) {
     const nlohmann::json q = from.value(key, nlohmann::json::object());
     if (!q.value("value", nlohmann::json()).is_number()) return std::string("not determined");
-    return withUncertainty(q["value"].get<double>(), q.value("standard_uncertainty", 0.0), "");
+    const double u =
+        q.value("standard_uncertainty", nlohmann::json()).is_number() ? q["standard_uncertainty"].get<double>() : 0.0;
+    if (!(u > 0.0))
+      return withUncertainty(std::round(10.0 * q["value"].get<double>()) / 10.0, 0.0, "") + " (uncertainty not stated)";
+    return withUncertainty(q["value"].get<double>(), u, "");
   };
   std::vector<ReportRow> rows;
   for (const nlohmann::json& c : artefact.value("against_certificate", nlohmann::json::array())) {

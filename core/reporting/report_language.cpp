@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/reporting/report_language.h"
 
-#include <string_view>
+#include <algorithm>
+#include <cstddef>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -34,6 +35,36 @@ std::optional<std::string> withEffectIds(const ReportText& text) {
     any = true;
   }
   return any ? std::optional(sentence) : std::nullopt;
+}
+
+/// A character of the private use area stands for a name while the text around it is translated.
+std::string standIn(std::size_t index) {
+  constexpr std::size_t first = 0xE000;
+  const std::size_t code = first + index;
+  return {static_cast<char>(0xE0U | code >> 12U), static_cast<char>(0x80U | (code >> 6U & 0x3FU)),
+          static_cast<char>(0x80U | (code & 0x3FU))};
+}
+
+void replaceAll(std::string& text, const std::string& from, const std::string& to) {
+  for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
+    text.replace(at, from.size(), to);
+}
+
+/// The language that leaves names as they are. One of a letter or two may be a part of any word.
+ReportLanguage keeping(const ReportLanguage& language, std::vector<std::string> names) {
+  constexpr std::size_t shortest = 3, most = 1000;
+  std::erase_if(names, [&](const std::string& name) { return name.size() < shortest; });
+  // A name within another is found in what is left.
+  std::stable_sort(names.begin(), names.end(),
+                   [](const std::string& a, const std::string& b) { return a.size() > b.size(); });
+  if (names.size() > most) names.resize(most);
+  return {language.code, [words = language.words, names = std::move(names)](const std::string& english) {
+            std::string text = english;
+            for (std::size_t i = 0; i < names.size(); ++i) replaceAll(text, names[i], standIn(i));
+            text = words(text);
+            for (std::size_t i = 0; i < names.size(); ++i) replaceAll(text, standIn(i), names[i]);
+            return text;
+          }};
 }
 
 struct Translation {
@@ -91,9 +122,10 @@ Drawing inLanguage(const Drawing& english, const ReportLanguage& language) {
   return english.withTexts([&](const std::string& text) { return text.empty() ? text : language.words(text); });
 }
 
-Report inLanguage(const Report& english, const ReportLanguage& language) {
-  const Translation translation{language};
-  return english.translated(language.code, translation, [&](const ReportBlock& block) {
+Report inLanguage(const Report& english, const ReportLanguage& language, std::vector<std::string> names) {
+  const ReportLanguage around = keeping(language, std::move(names));
+  const Translation translation{around};
+  return english.translated(around.code, around.words, [&](const ReportBlock& block) {
     return std::visit([&](const auto& b) -> ReportBlock { return translation(b); }, block);
   });
 }

@@ -7,6 +7,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/reporting/report.h"
 
@@ -22,9 +23,10 @@ struct ReportLanguage {
 void offerReportLanguage(std::optional<ReportLanguage> language);
 [[nodiscard]] const std::optional<ReportLanguage>& offeredReportLanguage();
 
-/// Headings, texts, callouts, tables, captions and the texts in figures in the language. Ids of effects, code and
-/// pictures stay.
-[[nodiscard]] Report inLanguage(const Report& english, const ReportLanguage& language);
+/// Headings, texts, callouts, tables, captions and the texts in figures in the language. Ids of effects, code, pictures
+/// and `names` (what people called a campaign, wrote in a note) stay.
+[[nodiscard]] Report inLanguage(const Report& english, const ReportLanguage& language,
+                                std::vector<std::string> names = {});
 /// A text by itself. An effect that stands by its title, with its id small beside it, keeps both.
 [[nodiscard]] ReportText inLanguage(const ReportText& english, const ReportLanguage& language);
 [[nodiscard]] Drawing inLanguage(const Drawing& english, const ReportLanguage& language);

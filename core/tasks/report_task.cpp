@@ -103,6 +103,16 @@ nlohmann::json WrittenReport::json() const {
   return out;
 }
 
+std::vector<std::string> ReportTask::namesThatPeopleGave() const {
+  std::vector<std::string> names = {campaign->name, campaign->machine.name, options.operator_name};
+  for (const auto& [item, reason] : options.exclusions) names.push_back(reason);
+  for (const std::string& note : options.notes) {  // "moment  step, item: text"
+    const std::size_t text = note.find(": ");
+    names.push_back(text == std::string::npos ? note : note.substr(text + 2));
+  }
+  return names;
+}
+
 WrittenReport ReportTask::run(JobContext& job) const {
   JobContext computing = job.part(0.0, 0.8);
   const Report report = reportOfCampaign(*campaign, options, computing);
@@ -114,7 +124,7 @@ WrittenReport ReportTask::run(JobContext& job) const {
     files.emplace_back(name + ending(translated) + ".pdf", pdfOf(one, part).bytes);
   };
   make(report, false, job.part(0.8, 0.9));
-  if (language) make(inLanguage(report, *language), true, job.part(0.9, 1.0));
+  if (language) make(inLanguage(report, *language, namesThatPeopleGave()), true, job.part(0.9, 1.0));
   job.throwIfCancelled();
   std::filesystem::create_directories((folder / name).parent_path());
   for (const auto& [file, bytes] : files) writeFileAtomically(folder / file, bytes);

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/tasks/campaign_state.h"
 #include "core/workflows/report_workflow.h"
@@ -43,6 +44,8 @@ struct ReportTask {
   /// Throws InputError and Cancelled; the files of an earlier
   /// report stay then.
   [[nodiscard]] WrittenReport run(JobContext& job) const;
+  /// What stays as it is in every language: names, reasons and notes.
+  [[nodiscard]] std::vector<std::string> namesThatPeopleGave() const;
 };
 
 }  // namespace spindrift

@@ -11516,6 +11516,22 @@ endgültig fehlgeschlagen: {}</translation>
         <source>uncertainty of the certificate {:g} µm</source>
         <translation>Unsicherheit des Kalibrierscheins {:g} µm</translation>
     </message>
+    <message>
+        <source>{} (uncertainty not stated)</source>
+        <translation>{} (Unsicherheit nicht angegeben)</translation>
+    </message>
+    <message>
+        <source>The observations agree better with the simulation of about {:.0f} s {} ({:.0f} % less scatter, in most components and most of the time), so they are compared with simulation and log at that time.</source>
+        <translation>Die Beobachtungen stimmen mit der Simulation von etwa {:.0f} s {} besser überein ({:.0f} % weniger Streuung, in den meisten Komponenten und die meiste Zeit), darum werden sie mit Simulation und Protokoll jener Zeit verglichen.</translation>
+    </message>
+    <message>
+        <source>earlier</source>
+        <translation>früher</translation>
+    </message>
+    <message>
+        <source>later</source>
+        <translation>später</translation>
+    </message>
 </context>
 <context>
     <name>help</name>

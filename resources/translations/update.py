@@ -42,7 +42,7 @@ COMPOSED = ("squareness of {} to {}", "{} = {}, before {}",
 # Words that stand alone.
 ALONE = ("push broom", "α about X", "β about Y", "γ about Z", "and", "or", "measured", "simulation", "one", "two", "three", "four", "five", "focus", "spindle changed", "re-levelled", "crash", "repair", "moved", "note", "tilt", "rotation", "Signatures", "Where simulation and measurement disagree", "converged", "degenerate", "no convergence", "rejected", "artefact", "bed", "column", "coolant", "instrument", "room",
          "table", "rotary drive", "before", "after", "noise", "added", "ahead of", "behind", "effects", "remainder", "cycle",
-         "none", "remains", "named", "(proposed)", "ambient", "spindle", "housing", "rotary", "stylus", "ball screw", "rotary encoder",
+         "none", "remains", "named", "(proposed)", "earlier", "later", "ambient", "spindle", "housing", "rotary", "stylus", "ball screw", "rotary encoder",
          "linear scale", "linear motor", "gain", "gain lift", "time constant", "time constant on", "time constant off")
 # The window lists the sections of a report.
 HEADING = re.compile(r'(?:\bsection\((?:fmt::format\()?|\bsections\.(?:push_back|emplace_back)\(\{?)\s*"([^"]+)"')

@@ -42,7 +42,8 @@ DiscrepancyInput stampedLate(Hidden hidden, std::uint64_t seed, double ahead_s, 
 
 /// As core/discrepancy/discrepancy_input.cpp does with what it reads.
 void follow(DiscrepancyInput& input, const PredictedAt& predicted) {
-  const auto clock = farSimulationClock(input.observations.rows, predicted);
+  auto clock = farSimulationClock(input.observations.rows, predicted);
+  if (!clock) clock = nearSimulationClock(input.observations.rows, predicted);
   if (clock) {
     input.log_clock_s = clock->offset_s;
     input.log_clock_uncertainty_s = clock->standard_uncertainty_s;
@@ -77,6 +78,31 @@ TEST(SimulationClock, IsFoundWhereItIsFarAwayAndOnlyThere) {
   EXPECT_GE(inside, count * 9 / 10);
 }
 
+TEST(SimulationClock, IsFoundToSecondsWhereItIsNearAndMovesEverything) {
+  int found = 0;
+  int inside = 0;
+  int count = 0;
+  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+    for (const Hidden hidden : {Hidden::Nothing, Hidden::SpindleDrift, Hidden::Screw}) {
+      PredictedAt predicted;
+      for (const double ahead_s : {90.0, -150.0, 300.0}) {
+        const DiscrepancyInput input = stampedLate(hidden, seed, ahead_s, predicted);
+        const auto clock = nearSimulationClock(input.observations.rows, predicted);
+        ++count;
+        if (!clock) continue;
+        ++found;
+        inside += std::abs(clock->offset_s + ahead_s) <= 2.0 * clock->standard_uncertainty_s ? 1 : 0;
+      }
+      // What is missing moves some components some of the time.
+      const DiscrepancyInput right = stampedLate(hidden, seed, 0.0, predicted);
+      EXPECT_FALSE(nearSimulationClock(right.observations.rows, predicted).has_value()) << seed;
+    }
+  }
+  // Below six standard uncertainties (here some 15 s and more) it is left to the search, with the effects.
+  EXPECT_GE(found, count / 4);
+  EXPECT_GE(inside, found * 5 / 6);
+}
+
 TEST(SimulationClock, FromPredictionsAtTheTimesOfTheObservations) {
   std::vector<Observation> rows(3);
   for (std::size_t i = 0; i < 3; ++i) {
@@ -109,6 +135,20 @@ TEST(SimulationClock, WhatIsMissingIsNamedAllTheSame) {
     }
   }
   EXPECT_GE(right, 7);
+}
+
+/// Three minutes: the simulation knows them to seconds, the effect alone does not.
+TEST(SimulationClock, MinutesAreToldWithTheirUncertainty) {
+  int told = 0;
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    PredictedAt predicted;
+    DiscrepancyInput input = stampedLate(Hidden::Nothing, seed, 180.0, predicted);
+    follow(input, predicted);
+    const DiscrepancyResult result = run(input);
+    EXPECT_TRUE(result.effects.empty()) << seed;
+    told += std::abs(result.clock_offset_s + 180.0) < 3.0 * result.clock_offset_uncertainty_s ? 1 : 0;
+  }
+  EXPECT_GE(told, 3);
 }
 
 /// A model that says what time it is, s.

@@ -4,6 +4,7 @@
 
 #include <gmock/gmock.h>
 
+#include <cctype>
 #include <map>
 #include <set>
 
@@ -60,6 +61,18 @@ TEST(ReportLanguage, EveryTextIsTranslatedAndCodeIsNot) {
   EXPECT_THAT(html, HasSubstr("[time / h]"));
   EXPECT_THAT(html, HasSubstr("<pre>$ typed</pre>"));
   EXPECT_THAT(htmlOf(sample()), HasSubstr("<html lang=\"en\">"));
+}
+
+TEST(ReportLanguage, NamesThatPeopleGaveStay) {
+  const ReportLanguage shouting{"xx", [](std::string english) {
+                                  for (char& c : english) c = static_cast<char>(std::toupper(c));
+                                  return english;
+                                }};
+  Report report("Thermal errors: mill and table", "x");
+  report.paragraph("mill and table is warmer than mill");
+  const Report other = inLanguage(report, shouting, {"mill", "mill and table", "is", ""});
+  EXPECT_EQ(other.title(), "THERMAL ERRORS: mill and table");
+  EXPECT_EQ(std::get<TextBlock>(other.blocks()[0]).text.plain(), "mill and table IS WARMER THAN mill");
 }
 
 /// Columns are aligned by what stands in them, whatever a language makes of it.

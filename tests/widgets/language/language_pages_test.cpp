@@ -279,7 +279,8 @@ TEST_P(LanguageOfPages, NoTextIsLeftOutOfTheTranslation) {
   SessionModel& session = window_->session();
   const ReportTask task = ReportTask::of(session.tasks(), session.excludedItems());
   JobContext job;
-  const Report report = inLanguage(reportOfCampaign(*task.campaign, task.options, job), *offeredReportLanguage());
+  const Report report = inLanguage(reportOfCampaign(*task.campaign, task.options, job), *offeredReportLanguage(),
+                                   task.namesThatPeopleGave());
   std::set<QString> names = namesIn(nlohmann::json::parse(readFile(session.campaign()->path("machine.json"))));
   names.insert(QString::fromStdString(session.campaign()->name));
   expectTranslated(report.blocks(), std::string(GetParam()) + ", report", names);

@@ -63,6 +63,7 @@ std::span<const char* const> spindrift::gui::core_formats::discrepancy() noexcep
     QT_TRANSLATE_NOOP("core", "The log has a gap of {:.0f} s after {:.0f} s: what the machine did in it is not known, and {} observations between {:.0f} s and {:.0f} s, until its heat has gone, are not compared."),
     QT_TRANSLATE_NOOP("core", "The log has no spindle_rpm: spindle heat is known from temperatures at best."),
     QT_TRANSLATE_NOOP("core", "The measuring instrument warms itself after it was switched on and drifts to its steady state; the machine has no part in it."),
+    QT_TRANSLATE_NOOP("core", "The observations agree better with the simulation of about {:.0f} s {} ({:.0f} % less scatter, in most components and most of the time), so they are compared with simulation and log at that time."),
     QT_TRANSLATE_NOOP("core", "The observations agree far better with the simulation of about {:.0f} min {} ({:.0f} % less scatter), so they are compared with simulation and log at that time: compare the clocks of observations.csv, log.csv and the simulation."),
     QT_TRANSLATE_NOOP("core", "The observations agree far better with the simulation of about {:.0f} min {} ({:.0f} % less scatter): compare the clocks of observations.csv, log.csv and the simulation."),
     QT_TRANSLATE_NOOP("core", "The pitch error of the screw repeats with every turn and changes as the screw warms."),

@@ -236,6 +236,7 @@ std::span<const char* const> spindrift::gui::core_formats::reporting() noexcept 
     QT_TRANSLATE_NOOP("core", "{:.1f} to {:.1f}"),
     QT_TRANSLATE_NOOP("core", "{:.2f} to {:.2f}"),
     QT_TRANSLATE_NOOP("core", "{:g} µm in X and Y, drawn {:g} times as long; bars: 2 standard uncertainties; number: EZ"),
+    QT_TRANSLATE_NOOP("core", "{} (uncertainty not stated)"),
     QT_TRANSLATE_NOOP("core", "{} at {} in state {}"),
     QT_TRANSLATE_NOOP("core", "{} for a gain of 1 {}: at most {:.3g} {}."),
     QT_TRANSLATE_NOOP("core", "{} items, listed with their reasons"),
