@@ -108,4 +108,19 @@ ComparableRows comparableRows(const DiscrepancyInput& input, double log_clock_s,
   return out;
 }
 
+bool logCovers(const DiscrepancyInput& input, double offset_s) {
+  if (!input.log || input.log->time_s().empty()) return true;
+  const double from_s = input.log->time_s().front();
+  const double to_s = input.log->time_s().back();
+  double now = 0.0;
+  double moved = 0.0;
+  for (const Observation& o : input.observations.rows) {
+    if (o.use != ObservationUse::Fit) continue;
+    now += o.time_s >= from_s && o.time_s <= to_s ? 1.0 : 0.0;
+    moved += o.time_s + offset_s >= from_s && o.time_s + offset_s <= to_s ? 1.0 : 0.0;
+  }
+  constexpr double most = 0.5;
+  return moved > most * now;
+}
+
 }  // namespace spindrift

@@ -24,4 +24,8 @@ struct ComparableRows {
 [[nodiscard]] ComparableRows comparableRows(const DiscrepancyInput& input, double log_clock_s,
                                             std::vector<std::string>& warnings);
 
+/// Whether the log, with its clock moved by `offset_s`, still covers most of the readings to be fitted that it covers
+/// without: beyond its ends nothing is known of the machine.
+[[nodiscard]] bool logCovers(const DiscrepancyInput& input, double offset_s);
+
 }  // namespace spindrift

@@ -5,11 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <utility>
 
 #include "core/base/text.h"
 #include "core/discrepancy/clock_offset.h"
+#include "core/discrepancy/comparable_rows.h"
 #include "core/discrepancy/discrepancy_numbers.h"
 #include "core/discrepancy/distributed_dynamics.h"
 #include "core/discrepancy/effect_relations.h"
@@ -394,6 +396,7 @@ std::optional<JudgedAnalysis> withFarClock(const DiscrepancyInput& input, const 
   DiscrepancyOptions strongest = options;
   strongest.max_effects = 1;
   const auto evidenceAt = [&](double by_s) {
+    if (!logCovers(input, near.log_clock_s + by_s)) return -std::numeric_limits<double>::infinity();
     DriverTable drivers = *analysis.drivers;
     drivers.shiftClock(by_s);
     const EffectSearch search(problem, drivers, analysis.catalogue);

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "core/base/unit_text.h"
+#include "core/discrepancy/comparable_rows.h"
 #include "core/discrepancy/discrepancy.h"
 #include "core/discrepancy/effect_model.h"
 #include "core/discrepancy/own_effects.h"
@@ -20,7 +21,7 @@ namespace {
 void followClock(DiscrepancyInput& input, const PredictedAt& predicted) {
   auto clock = farSimulationClock(input.observations.rows, predicted);
   if (!clock) clock = nearSimulationClock(input.observations.rows, predicted);
-  if (!clock) return;
+  if (!clock || !logCovers(input, clock->offset_s)) return;
   input.log_clock_s = clock->offset_s;
   input.log_clock_uncertainty_s = clock->standard_uncertainty_s;
   input.notes.push_back(clock->sentence(true));

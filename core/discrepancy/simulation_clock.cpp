@@ -47,12 +47,14 @@ Compared comparedSeries(const std::vector<Observation>& observations, const Pred
   const std::size_t stride = std::max<std::size_t>(1, observations.size() / most_observations);
   std::size_t index = 0;
   for (auto& [key, members] : series) {
-    if (reach_s > 0.0)
+    if (members.size() < fewest_in_series || index++ % stride != 0) continue;
+    if (reach_s > 0.0) {
       std::erase_if(members, [&](const auto& member) {
         const Observation& o = *member.first;
         return !std::isfinite(predicted(o, o.time_s - reach_s)) || !std::isfinite(predicted(o, o.time_s + reach_s));
       });
-    if (members.size() < fewest_in_series || index++ % stride != 0) continue;
+      if (members.size() < fewest_in_series) continue;
+    }
     for (auto& [o, now] : members) {
       now = predicted(*o, o->time_s);
       out.first_s = std::min(out.first_s, o->time_s);
@@ -77,9 +79,14 @@ struct Left {
 
   [[nodiscard]] double ratio() const { return now > 0.0 ? moved / now : 1.0; }
   [[nodiscard]] double shareOfPartsWithLess() const {
-    const auto less =
-        std::count_if(parts.begin(), parts.end(), [](const auto& p) { return p.second.moved < p.second.now; });
-    return parts.empty() ? 0.0 : static_cast<double>(less) / static_cast<double>(parts.size());
+    double less = 0.0;
+    double count = 0.0;
+    for (const auto& [key, part] : parts) {
+      if (std::abs(part.moved - part.now) <= 1e-9 * part.now) continue;  // nothing is predicted to move there
+      count += 1.0;
+      less += part.moved < part.now ? 1.0 : 0.0;
+    }
+    return count > 0.0 ? less / count : 0.0;
   }
 };
 
@@ -118,15 +125,19 @@ Left leftAt(const Compared& compared, const PredictedAt& predicted, double offse
   return out;
 }
 
-/// The offset between steps, `best_s` the one at which least is left, `least_s`: no clock is read better.
+/// The offset between steps, `best_s` the one at which least is left. `least_s`: no clock is read better; `unread_s`:
+/// uncertainty where what is left beside it says nothing.
 SimulationClock between(const Compared& compared, const PredictedAt& predicted, double best_s, double step_s,
-                        double least_s) {
+                        double least_s, double unread_s) {
   const Left at = leftAt(compared, predicted, best_s);
   const Left low = leftAt(compared, predicted, best_s - step_s);
   const Left high = leftAt(compared, predicted, best_s + step_s);
   SimulationClock out{best_s, least_s, std::sqrt(at.ratio())};
   const double curvature = low.moved + high.moved - 2.0 * at.moved;
-  if (!(low.moved > 0.0 && high.moved > 0.0 && curvature > 0.0)) return out;
+  if (!(low.moved > 0.0 && high.moved > 0.0 && curvature > 0.0)) {
+    out.standard_uncertainty_s = unread_s;
+    return out;
+  }
   out.offset_s += step_s * std::clamp(0.5 * (low.moved - high.moved) / curvature, -1.0, 1.0);
   // What is missing in the simulation goes on for long and is the same at many points: the slopes of the parts say how
   // far each of them would move the offset (the sandwich of Huber and White, parts as blocks).
@@ -142,6 +153,8 @@ SimulationClock between(const Compared& compared, const PredictedAt& predicted, 
 }
 
 constexpr double near_s = 600.0;
+/// A clock moves everything: share of the components, each in a quarter of the time, in which less is left.
+constexpr double most_parts = 0.8;
 
 }  // namespace
 
@@ -195,7 +208,8 @@ std::optional<SimulationClock> farSimulationClock(const std::vector<Observation>
   }
   constexpr double far_s = 1200.0;
   if (std::abs(best_s) < far_s) return std::nullopt;
-  return between(compared, predicted, best_s, fine_s, fine_s);
+  if (leftAt(compared, predicted, best_s).shareOfPartsWithLess() < most_parts) return std::nullopt;
+  return between(compared, predicted, best_s, fine_s, fine_s, coarse_s);
 }
 
 std::optional<SimulationClock> nearSimulationClock(const std::vector<Observation>& observations,
@@ -222,8 +236,7 @@ std::optional<SimulationClock> nearSimulationClock(const std::vector<Observation
   if (best_s == 0.0 || std::abs(best_s) > near_s - coarse_s) return std::nullopt;  // nothing, or not within minutes
   constexpr double least_s = 2.0;
   constexpr double many = 6.0;  // standard uncertainties: they do not know what is missing in the simulation
-  constexpr double most_parts = 0.6;
-  const SimulationClock clock = between(compared, predicted, best_s, fine_s, least_s);
+  const SimulationClock clock = between(compared, predicted, best_s, fine_s, least_s, near_s);
   if (std::abs(clock.offset_s) < many * clock.standard_uncertainty_s) return std::nullopt;
   if (leftAt(compared, predicted, best_s).shareOfPartsWithLess() < most_parts) return std::nullopt;
   return clock;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Observations whose clock is not that of the simulation: far from it after an hour of summer time, or on a microscope's
-// computer that was never set; minutes from it on any two computers. Internal to core/discrepancy.
+// Observations whose clock is not that of the simulation: far from it after an hour of summer time, or on a
+// microscope's computer that was never set; minutes from it on any two computers. Internal to core/discrepancy.
 //
-// A simulation is computed from the log, so its clock is that of the log. Where the observations agree far better with
-// what it predicts for another time, they are compared at that time, and so is the log.
+// A simulation is computed from the log, so its clock is that of the log. Where the observations agree better with what
+// it predicts for another time, they are compared at that time, and so is the log.
 #pragma once
 
 #include <functional>
@@ -36,9 +36,9 @@ using PredictedAt = std::function<double(const Observation&, double time_s)>;
 [[nodiscard]] std::optional<SimulationClock> farSimulationClock(const std::vector<Observation>& observations,
                                                                 const PredictedAt& predicted);
 
-/// The same within minutes. A missing effect or a time constant that is off may look like a small offset as well, in
-/// its component, while it acts; a clock moves everything. So it is believed where it is many times its uncertainty and
-/// what is left is less in most components and quarters of the time.
+/// The same within nine minutes, to seconds. A missing effect or a time constant that is off may look like a small
+/// offset as well, in its component, while it acts; a clock moves everything. So it is believed where it is many times
+/// its uncertainty and what is left is less in most components and quarters of the time.
 [[nodiscard]] std::optional<SimulationClock> nearSimulationClock(const std::vector<Observation>& observations,
                                                                  const PredictedAt& predicted);
 

@@ -2,7 +2,9 @@
 #include "core/reporting/report_language.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cstddef>
+#include <unordered_set>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -45,25 +47,48 @@ std::string standIn(std::size_t index) {
           static_cast<char>(0x80U | (code & 0x3FU))};
 }
 
-void replaceAll(std::string& text, const std::string& from, const std::string& to) {
-  for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
-    text.replace(at, from.size(), to);
+bool isPartOfWord(char c) {
+  return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || (static_cast<unsigned char>(c) & 0x80U) != 0;
 }
 
-/// The language that leaves names as they are. One of a letter or two may be a part of any word.
-ReportLanguage keeping(const ReportLanguage& language, std::vector<std::string> names) {
-  constexpr std::size_t shortest = 3, most = 1000;
-  std::erase_if(names, [&](const std::string& name) { return name.size() < shortest; });
+/// Where it is a word, or words, of its own.
+void replaceName(std::string& text, const std::string& name, const std::string& by) {
+  for (std::size_t at = text.find(name); at != std::string::npos; at = text.find(name, at)) {
+    const std::size_t end = at + name.size();
+    const bool alone = (at == 0 || !isPartOfWord(text[at - 1]) || !isPartOfWord(name.front())) &&
+                       (end == text.size() || !isPartOfWord(text[end]) || !isPartOfWord(name.back()));
+    if (alone) text.replace(at, name.size(), by);
+    at += alone ? by.size() : 1;
+  }
+}
+
+/// The language that leaves names as they are.
+ReportLanguage keeping(const ReportLanguage& language, const ReportNames& names) {
+  std::vector<std::string> within = names.within;
+  std::erase(within, std::string());
   // A name within another is found in what is left.
-  std::stable_sort(names.begin(), names.end(),
+  std::stable_sort(within.begin(), within.end(),
                    [](const std::string& a, const std::string& b) { return a.size() > b.size(); });
-  if (names.size() > most) names.resize(most);
-  return {language.code, [words = language.words, names = std::move(names)](const std::string& english) {
-            std::string text = english;
-            for (std::size_t i = 0; i < names.size(); ++i) replaceAll(text, names[i], standIn(i));
+  std::unordered_set<std::string> whole(names.whole.begin(), names.whole.end());
+  whole.erase(std::string());
+  return {language.code,
+          [words = language.words, within = std::move(within), whole = std::move(whole)](const std::string& english) {
+            if (whole.contains(english)) return english;
+            static const std::string colon = ": ";
+            std::size_t kept = english.size();
+            for (std::size_t at = english.find(colon); at != std::string::npos && kept == english.size();
+                 at = english.find(colon, at + 1)) {
+              if (whole.contains(english.substr(at + colon.size()))) kept = at + colon.size();
+            }
+            std::string text = english.substr(0, kept);
+            for (std::size_t i = 0; i < within.size(); ++i) replaceName(text, within[i], standIn(i));
             text = words(text);
-            for (std::size_t i = 0; i < names.size(); ++i) replaceAll(text, standIn(i), names[i]);
-            return text;
+            for (std::size_t i = 0; i < within.size(); ++i) {
+              const std::string mark = standIn(i);
+              for (std::size_t at = text.find(mark); at != std::string::npos; at = text.find(mark, at))
+                text.replace(at, mark.size(), within[i]), at += within[i].size();
+            }
+            return text + english.substr(kept);
           }};
 }
 
@@ -122,8 +147,8 @@ Drawing inLanguage(const Drawing& english, const ReportLanguage& language) {
   return english.withTexts([&](const std::string& text) { return text.empty() ? text : language.words(text); });
 }
 
-Report inLanguage(const Report& english, const ReportLanguage& language, std::vector<std::string> names) {
-  const ReportLanguage around = keeping(language, std::move(names));
+Report inLanguage(const Report& english, const ReportLanguage& language, const ReportNames& names) {
+  const ReportLanguage around = keeping(language, names);
   const Translation translation{around};
   return english.translated(around.code, around.words, [&](const ReportBlock& block) {
     return std::visit([&](const auto& b) -> ReportBlock { return translation(b); }, block);

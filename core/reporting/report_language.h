@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A report in another language. Reports are made in English; a program that has a catalogue of translations offers its
-// language once, at its start, and every report that is filed is written in that language too, beside the English one:
-// what is found is the same, so neither makes the other outdated.
+// language once, at its start, and the report of a campaign is filed in that language too, beside the English one: what
+// is found is the same, so neither makes the other outdated.
 #pragma once
 
 #include <functional>
@@ -23,10 +23,15 @@ struct ReportLanguage {
 void offerReportLanguage(std::optional<ReportLanguage> language);
 [[nodiscard]] const std::optional<ReportLanguage>& offeredReportLanguage();
 
+/// What people wrote, which stays as it is in every language.
+struct ReportNames {
+  std::vector<std::string> within;  ///< in the middle of texts too, as words of their own: a campaign, an operator
+  std::vector<std::string> whole;   ///< whole texts, or what follows a colon: points, reasons, notes
+};
+
 /// Headings, texts, callouts, tables, captions and the texts in figures in the language. Ids of effects, code, pictures
-/// and `names` (what people called a campaign, wrote in a note) stay.
-[[nodiscard]] Report inLanguage(const Report& english, const ReportLanguage& language,
-                                std::vector<std::string> names = {});
+/// and `names` stay.
+[[nodiscard]] Report inLanguage(const Report& english, const ReportLanguage& language, const ReportNames& names = {});
 /// A text by itself. An effect that stands by its title, with its id small beside it, keeps both.
 [[nodiscard]] ReportText inLanguage(const ReportText& english, const ReportLanguage& language);
 [[nodiscard]] Drawing inLanguage(const Drawing& english, const ReportLanguage& language);

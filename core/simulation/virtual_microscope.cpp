@@ -119,10 +119,14 @@ class ArtworkDistance {
         for (const PatternStroke& s : pattern.digits[digit]) best = std::min(best, distanceToStroke(s, {x, y}));
         return best - 0.5 * pattern.digit_line_width_um;
       });
-      known_um_ = std::min(known_um_, digits_[digit].leastAtBorder());
+      // The table reaches to whole um, beyond what belongs to the digit, and is sampled every um.
+      const double beyond_um = std::max(std::ceil(pattern.digit_offset_x_um) - pattern.digit_offset_x_um,
+                                        std::ceil(pattern.digit_offset_y_um) - pattern.digit_offset_y_um);
+      known_um_ = std::min(known_um_, digits_[digit].leastAtBorder() - beyond_um - 0.5);
     }
     for (const double semi_axis_um : {pattern.semi_axis_x_um, pattern.semi_axis_y_um})
       known_um_ = std::min(known_um_, 0.5 * pattern.pitch_um - semi_axis_um - half);
+    known_um_ = std::min(known_um_, 0.5 * pattern.pitch_um - pattern.circle_radius_um);
   }
 
   [[nodiscard]] const FiducialPattern& pattern() const { return pattern_; }
@@ -179,8 +183,10 @@ class ArtworkCursor {
   [[nodiscard]] double besideIt(double x, double y, double reach_um) const {
     double best = ArtworkDistance::far_um;
     const double seen_um = 2.5 * reach_um;
-    if (near_[0] < seen_um) best = artwork_.ring().at(x - ellipse_x_, y - ellipse_y_);
-    if (near_[1] < seen_um) best = std::min(best, digit_->at(x - digit_x_, y - digit_y_));
+    if (near_[0] < seen_um && artwork_.ring().covers(x - ellipse_x_, y - ellipse_y_))
+      best = artwork_.ring().at(x - ellipse_x_, y - ellipse_y_);
+    if (near_[1] < seen_um && digit_->covers(x - digit_x_, y - digit_y_))
+      best = std::min(best, digit_->at(x - digit_x_, y - digit_y_));
     if (near_[2] < seen_um) {
       const double u = x - circle_x_;
       const double v = y - circle_y_;

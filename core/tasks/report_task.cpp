@@ -103,12 +103,20 @@ nlohmann::json WrittenReport::json() const {
   return out;
 }
 
-std::vector<std::string> ReportTask::namesThatPeopleGave() const {
-  std::vector<std::string> names = {campaign->name, campaign->machine.name, options.operator_name};
-  for (const auto& [item, reason] : options.exclusions) names.push_back(reason);
+ReportNames ReportTask::namesThatPeopleGave() const {
+  const MachineDescription& machine = campaign->machine;
+  ReportNames names;
+  names.within = {campaign->name, machine.name, options.operator_name};
+  for (const MachinePoint& point : machine.points) names.whole.push_back(point.id);
+  for (const Artefact& artefact : machine.artefacts) names.whole.push_back(artefact.id);
+  for (const Stylus& stylus : machine.styli) names.whole.push_back(stylus.id);
+  for (const auto& [item, reason] : options.exclusions) {
+    names.whole.push_back(item);
+    names.whole.push_back(reason);
+  }
   for (const std::string& note : options.notes) {  // "moment  step, item: text"
     const std::size_t text = note.find(": ");
-    names.push_back(text == std::string::npos ? note : note.substr(text + 2));
+    if (text != std::string::npos) names.whole.push_back(note.substr(text + 2));
   }
   return names;
 }

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "core/reporting/report_language.h"
 #include "core/tasks/campaign_state.h"
 #include "core/workflows/report_workflow.h"
 
@@ -41,11 +42,10 @@ struct ReportTask {
   /// Of the graph's campaign as it is now. Writes the effects as edited into the session's folder.
   [[nodiscard]] static ReportTask of(const TaskGraph& graph, const ExcludedItems& excluded);
   /// Writes the report as HTML and PDF into the session, in English and in the language that the program offers.
-  /// Throws InputError and Cancelled; the files of an earlier
-  /// report stay then.
+  /// Throws InputError and Cancelled; the files of an earlier report stay then.
   [[nodiscard]] WrittenReport run(JobContext& job) const;
-  /// What stays as it is in every language: names, reasons and notes.
-  [[nodiscard]] std::vector<std::string> namesThatPeopleGave() const;
+  /// What stays as it is in every language.
+  [[nodiscard]] ReportNames namesThatPeopleGave() const;
 };
 
 }  // namespace spindrift

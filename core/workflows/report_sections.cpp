@@ -74,10 +74,8 @@ void addSheet(Report& document, const std::vector<Thumbnail>& thumbnails, const 
     gone.resize(most_named);
     gone.push_back(fmt::format("{} more", count - most_named));
   }
-  const char* verb = count == 1 ? "is" : "are";
-  document.callout(CalloutKind::Attention,
-                   fmt::format("{} of {} {} left out: {} {} missing or cannot be read.", count,
-                               countOf(thumbnails.size(), "picture"), verb, joinedList(gone), verb));
+  document.callout(CalloutKind::Attention, fmt::format("{} of {} left out, because missing or not readable: {}.", count,
+                                                       countOf(thumbnails.size(), "picture"), joinedList(gone)));
 }
 
 /// What an image was taken for.
@@ -287,8 +285,7 @@ void addPlan(Report& document, const nlohmann::json& plan_json, const Campaign& 
   document.table({"State", "Due / h", "Planned", "Captured"}, rows, "Planned and captured items per thermal state");
   if (missing > 0)
     document.callout(CalloutKind::Attention,
-                     fmt::format("{} of {} {} not captured.", missing, countOf(plan.items.size(), "planned item"),
-                                 missing == 1 ? "was" : "were"));
+                     fmt::format("Not captured: {} of {}.", missing, countOf(plan.items.size(), "planned item")));
 }
 
 void addCaptures(Report& document, const Campaign& campaign, const JobContext& job) {

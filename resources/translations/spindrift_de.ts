@@ -7372,7 +7372,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>{} from {}</source>
-        <translation>{} ab {}</translation>
+        <translation>{} von {}</translation>
     </message>
     <message>
         <source>{} gives {} entries for {} FIELDS.</source>
@@ -10078,7 +10078,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>Discrepancy: {}</source>
-        <translation>Abweichung von der Simulation: {}</translation>
+        <translation>Diskrepanz: {}</translation>
     </message>
     <message>
         <source>Displacement</source>
@@ -10098,7 +10098,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>Driven by {}. Probability that {} {:.2f}; gain in BIC {:.0f}; rms on {} {:.2f} µm before, {:.2f} µm after.</source>
-        <translation>Angetrieben von: {}. Wahrscheinlichkeit, dass {}: {:.2f}; Gewinn in BIC {:.0f}; rms auf {}: {:.2f} µm vorher, {:.2f} µm nachher.</translation>
+        <translation>Angetrieben von: {}. Wahrscheinlichkeit, dass {}: {:.2f}; Gewinn in BIC {:.0f}; rms an {}: {:.2f} µm vorher, {:.2f} µm nachher.</translation>
     </message>
     <message>
         <source>Effect</source>
@@ -10162,7 +10162,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>Growth of the artefact; EME combines both by their uncertainties</source>
-        <translation>Wachstum des Prüfkörpers; EME verbindet beide nach ihren Unsicherheiten</translation>
+        <translation>Wachstum des Prüfkörpers; EME kombiniert beide nach ihren Unsicherheiten</translation>
     </message>
     <message>
         <source>Growth of the artefact; EME rests on the touches alone</source>
@@ -10186,7 +10186,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>Item</source>
-        <translation>Gegenstand</translation>
+        <translation>Element</translation>
     </message>
     <message>
         <source>Joint evaluation X, Y, Z / µrad</source>
@@ -10242,7 +10242,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>Measured displacement of the points in state {}, from {}: arrows X and Y, colour and number Z in µm</source>
-        <translation>Gemessene Verschiebung der Punkte im Zustand {}, ab {}: Pfeile X und Y, Farbe und Zahl Z in µm</translation>
+        <translation>Gemessene Verschiebung der Punkte im Zustand {}, gegenüber {}: Pfeile X und Y, Farbe und Zahl Z in µm</translation>
     </message>
     <message>
         <source>Measured minus the simulation&apos;s own runs, before and after</source>
@@ -10462,7 +10462,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>The remainder: what is smooth in time and space and neither effect nor noise; evidence: 2 ln of the odds that it is more than noise, clear from 10 on</source>
-        <translation>Der Rest: was in Zeit und Raum glatt ist und weder Effekt noch Rauschen; Evidenz: 2 ln der Chancen, dass es mehr als Rauschen ist, deutlich ab 10</translation>
+        <translation>Der Rest: was in Zeit und Raum glatt ist und weder Effekt noch Rauschen; Evidenz: 2 ln des Chancenverhältnisses, dass es mehr als Rauschen ist, deutlich ab 10</translation>
     </message>
     <message>
         <source>Thermal errors: {}</source>
@@ -10610,7 +10610,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>change of the tool relative to the table from {}</source>
-        <translation>Änderung des Werkzeugs gegenüber dem Tisch ab {}</translation>
+        <translation>Lageänderung des Werkzeugs relativ zum Tisch gegenüber {}</translation>
     </message>
     <message>
         <source>changes no prediction</source>
@@ -10830,7 +10830,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>{} items, listed with their reasons</source>
-        <translation>{} Einträge, mit ihren Gründen aufgeführt</translation>
+        <translation>{} Elemente, mit ihren Gründen aufgeführt</translation>
     </message>
     <message>
         <source>{} observations of {} points in {} states. Deviation = actual minus commanded position of the tool relative to the table, up to a constant per point and component; shown is the change from the first reading of each point.</source>
@@ -10934,7 +10934,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>An effect is a driver (a column of the log, after its dynamics q(t)) times a gain times a shape. The figures show the shape for a gain of one in the middle planes of a working volume of 500 mm x 500 mm x 400 mm: grey as commanded, coloured as displaced, magnified so that the largest displacement is a tenth of the volume.</source>
-        <translation>Ein Effekt ist ein Antrieb (eine Spalte des Protokolls, nach seiner Dynamik q(t)) mal eine Verstärkung mal eine Form. Die Bilder zeigen die Form für die Verstärkung eins in den Mittelebenen eines Arbeitsraums von 500 mm x 500 mm x 400 mm: grau wie befohlen, farbig wie verschoben, so vergrößert, dass die größte Verschiebung ein Zehntel des Arbeitsraums ist.</translation>
+        <translation>Ein Effekt ist ein Antrieb (eine Spalte des Protokolls, nach seiner Dynamik q(t)) mal eine Verstärkung mal eine Form. Die Bilder zeigen die Form für die Verstärkung eins in den Mittelebenen eines Arbeitsraums von 500 mm x 500 mm x 400 mm: grau in Solllage, farbig verschoben, so vergrößert, dass die größte Verschiebung ein Zehntel des Arbeitsraums ist.</translation>
     </message>
     <message>
         <source>As the measuring cycles saw it, relative to the first cycle</source>
@@ -10966,7 +10966,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>Correction at each measured point and what would remain of the measured deviation</source>
-        <translation>Korrektur an jedem gemessenen Punkt und was von der gemessenen Abweichung bliebe</translation>
+        <translation>Korrektur an jedem gemessenen Punkt und was von der gemessenen Abweichung übrig bliebe</translation>
     </message>
     <message>
         <source>Corrections at 40 of {} points</source>
@@ -11074,7 +11074,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>Losses of the control</source>
-        <translation>Verluste der Steuerung</translation>
+        <translation>Verbindungsabbrüche zur Steuerung</translation>
     </message>
     <message>
         <source>Measuring cycles</source>
@@ -11130,7 +11130,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>Planned and captured items per thermal state</source>
-        <translation>Geplante und aufgenommene Punkte je thermischem Zustand</translation>
+        <translation>Geplante und aufgenommene Elemente je thermischem Zustand</translation>
     </message>
     <message>
         <source>Position / mm</source>
@@ -11218,7 +11218,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>The control&apos;s compensator, run over the log in {:.0f} cycles of {:g} s: {:.0f} on held inputs, {:.0f} in fall-back. Compensation = −predicted deviation, added to the command.</source>
-        <translation>Der Kompensator der Steuerung, über das Protokoll gelaufen in {:.0f} Zyklen von {:g} s: {:.0f} mit gehaltenen Eingängen, {:.0f} im Rückfallbetrieb. Kompensation = −vorhergesagte Abweichung, zum Sollwert addiert.</translation>
+        <translation>Der Kompensator der Steuerung, mit dem Protokoll durchgerechnet in {:.0f} Zyklen von {:g} s: {:.0f} mit gehaltenen Eingängen, {:.0f} im Rückfallbetrieb. Kompensation = −vorhergesagte Abweichung, zum Sollwert addiert.</translation>
     </message>
     <message>
         <source>The first image of every fiducial and state</source>
@@ -11258,7 +11258,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>Unseen: {}</source>
-        <translation>Ungesehen: {}</translation>
+        <translation>Nicht im Training: {}</translation>
     </message>
     <message>
         <source>Verdict</source>
@@ -11278,7 +11278,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>What the compensation leaves of the measured deviations; a reduction is positive where it helps</source>
-        <translation>Was die Kompensation von den gemessenen Abweichungen lässt; eine Verringerung ist positiv, wo sie hilft</translation>
+        <translation>Was die Kompensation von den gemessenen Abweichungen übrig lässt; eine Verringerung ist positiv, wo sie hilft</translation>
     </message>
     <message>
         <source>Where the touches of the first cycle are, machine coordinates</source>
@@ -11286,7 +11286,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>better than plain models on rows it had not seen</source>
-        <translation>besser als einfache Modelle auf ungesehenen Zeilen</translation>
+        <translation>besser als einfache Modelle an Zeilen, die nicht im Training waren</translation>
     </message>
     <message>
         <source>identified models</source>
@@ -11385,14 +11385,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>{} (vorher {}), {}</translation>
     </message>
     <message>
-        <source>{} of {} {} left out: {} {} missing or cannot be read.</source>
-        <translation>{} von {} {} ausgelassen: {} {} fehlt oder ist nicht lesbar.</translation>
-    </message>
-    <message>
-        <source>{} of {} {} not captured.</source>
-        <translation>{} von {} {} nicht aufgenommen.</translation>
-    </message>
-    <message>
         <source>{}, relative to {}. Compensation = −deviation: what is added to the command.</source>
         <translation>{}, bezogen auf {}. Kompensation = −Abweichung: was zum Sollwert addiert wird.</translation>
     </message>
@@ -11434,7 +11426,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>linear scale</source>
-        <translation>Längenmesssystem</translation>
+        <translation>Maßstab</translation>
     </message>
     <message>
         <source>named</source>
@@ -11522,7 +11514,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>The observations agree better with the simulation of about {:.0f} s {} ({:.0f} % less scatter, in most components and most of the time), so they are compared with simulation and log at that time.</source>
-        <translation>Die Beobachtungen stimmen mit der Simulation von etwa {:.0f} s {} besser überein ({:.0f} % weniger Streuung, in den meisten Komponenten und die meiste Zeit), darum werden sie mit Simulation und Protokoll jener Zeit verglichen.</translation>
+        <translation>Die Beobachtungen stimmen besser mit der Simulation überein, wenn diese etwa {:.0f} s {} genommen wird ({:.0f} % weniger Streuung, in den meisten Komponenten und die meiste Zeit); darum werden sie mit Simulation und Protokoll jener Zeit verglichen.</translation>
     </message>
     <message>
         <source>earlier</source>
@@ -11531,6 +11523,14 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>later</source>
         <translation>später</translation>
+    </message>
+    <message>
+        <source>Not captured: {} of {}.</source>
+        <translation>Nicht aufgenommen: {} von {}.</translation>
+    </message>
+    <message>
+        <source>{} of {} left out, because missing or not readable: {}.</source>
+        <translation>{} von {} ausgelassen, weil nicht vorhanden oder nicht lesbar: {}.</translation>
     </message>
 </context>
 <context>
@@ -12086,6 +12086,10 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>Tables stand in place of those that the control has: save these first, and add them where they are to hold.</source>
         <translation>Tabellen stehen anstelle derer, die die Steuerung hat: diese zuerst sichern und dazuzählen, wo sie gelten sollen.</translation>
+    </message>
+    <message>
+        <source>A window in another language writes it in English and in its own; the one that is chosen is shown, printed and saved.</source>
+        <translation>Ein deutsches Fenster schreibt ihn auf Englisch und auf Deutsch; der gewählte wird gezeigt, gedruckt und gespeichert.</translation>
     </message>
 </context>
 <context>
@@ -17633,7 +17637,7 @@ einsatz</translation>
     </message>
     <message>
         <source>linear scale</source>
-        <translation>Längenmesssystem</translation>
+        <translation>Maßstab</translation>
     </message>
     <message>
         <source>fiducial</source>
@@ -18234,7 +18238,7 @@ einsatz</translation>
     </message>
     <message>
         <source>Setting the manual</source>
-        <translation>Das Handbuch wird gesetzt</translation>
+        <translation>Das Handbuch wird erstellt</translation>
     </message>
     <message>
         <source>Manual in En&amp;glish …</source>

@@ -16,6 +16,7 @@
 
 #include "core/base/error.h"
 #include "widgets/common/preferences.h"
+#include "widgets/common/report_files.h"
 #include "widgets/export/print.h"
 #include "widgets/jobs/job_bar.h"
 #include "widgets/models/cells.h"
@@ -166,8 +167,7 @@ void MainWindow::showNewsIfDue() {
 std::filesystem::path MainWindow::reportFile() {
   if (session_.campaign() == nullptr) return {};
   const StoredResult* stored = session_.latest("report");
-  if (stored == nullptr || !stored->payload.contains("pdf")) return {};
-  return session_.folder() / stored->payload.value("pdf", std::string());
+  return stored == nullptr ? std::filesystem::path() : storedReport(session_.folder(), stored->payload, "pdf");
 }
 
 void MainWindow::askAndPrint(const std::function<void(QPrinter&)>& print) {

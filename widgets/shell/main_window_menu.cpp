@@ -18,8 +18,9 @@
 
 #include "core/base/atomic_file.h"
 #include "core/base/error.h"
+#include "core/reporting/report_language.h"
+#include "core/workflows/manual.h"
 #include "widgets/common/core_sentence.h"
-#include "widgets/common/languages.h"
 #include "widgets/common/parts.h"
 #include "widgets/common/preferences.h"
 #include "widgets/jobs/job_bar.h"
@@ -188,7 +189,7 @@ void MainWindow::buildMenu() {
   });
   help_action_->setCheckable(true);
   help_action_->setChecked(QSettings().value(QStringLiteral("help"), false).toBool());
-  const bool translated = currentLanguage() != availableLanguages().front().code;
+  const bool translated = offeredReportLanguage() && !manualChapters(offeredReportLanguage()->code).empty();
   add(help, tr("&Manual …"), "note", QKeySequence(Qt::SHIFT | Qt::Key_F1),
       [this, translated] { translated ? openTranslatedManual() : openManual(manualFile()); });
   if (translated) add(help, tr("Manual in En&glish …"), "note", {}, [this] { openManual(manualFile()); });

@@ -103,7 +103,7 @@ TEST(Manual, ExamplesAreWhatTheProgramSays) {
   std::filesystem::current_path(folder.path());
   std::vector<std::filesystem::path> chapters;
   for (const auto& entry : std::filesystem::directory_iterator(sources / "resources/manual"))
-    chapters.push_back(entry.path());
+    if (entry.is_regular_file()) chapters.push_back(entry.path());
   std::sort(chapters.begin(), chapters.end());
   int count = 0;
   for (const std::filesystem::path& chapter : chapters) {
@@ -121,6 +121,29 @@ TEST(Manual, ExamplesAreWhatTheProgramSays) {
   }
   std::filesystem::current_path(before);
   EXPECT_GE(count, 14);
+}
+
+/// What is typed and answered there is English too, and has been run above.
+TEST(Manual, TheGermanChaptersHaveTheSameExamples) {
+  const std::filesystem::path english = std::filesystem::path(SPINDRIFT_SOURCE_DIR) / "resources/manual";
+  const auto blocksOf = [](const std::filesystem::path& chapter) {
+    std::vector<std::string> lines;
+    bool console = false;
+    for (const std::string& line : linesOf(chapter)) {
+      if (line.starts_with("```")) console = line == "```console";
+      if (console) lines.push_back(line);
+    }
+    return lines;
+  };
+  int chapters = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(english)) {
+    if (!entry.is_regular_file()) continue;
+    const std::filesystem::path german = english / "de" / entry.path().filename();
+    ASSERT_TRUE(std::filesystem::exists(german)) << german;
+    EXPECT_EQ(blocksOf(german), blocksOf(entry.path())) << german;
+    ++chapters;
+  }
+  EXPECT_GE(chapters, 10);
 }
 
 TEST(Manual, HoldsEveryEffectWithItsFigureAndEveryCommand) {

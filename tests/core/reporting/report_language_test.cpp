@@ -68,11 +68,20 @@ TEST(ReportLanguage, NamesThatPeopleGaveStay) {
                                   for (char& c : english) c = static_cast<char>(std::toupper(c));
                                   return english;
                                 }};
-  Report report("Thermal errors: mill and table", "x");
+  Report report("Thermal errors: mill and table", "by Tim");
   report.paragraph("mill and table is warmer than mill");
-  const Report other = inLanguage(report, shouting, {"mill", "mill and table", "is", ""});
+  report.paragraph("Time, by Tim: noise and more");
+  report.paragraph("today  Capture: noise");
+  report.table({"Point", "Why"}, {{"Top", "noise"}, {"Topmost", "noise here"}});
+  const Report other = inLanguage(report, shouting, {{"mill", "mill and table", "Tim", ""}, {"Top", "noise", ""}});
+  const auto text = [&](std::size_t block) { return std::get<TextBlock>(other.blocks()[block]).text.plain(); };
   EXPECT_EQ(other.title(), "THERMAL ERRORS: mill and table");
-  EXPECT_EQ(std::get<TextBlock>(other.blocks()[0]).text.plain(), "mill and table IS WARMER THAN mill");
+  EXPECT_EQ(text(0), "mill and table IS WARMER THAN mill");
+  EXPECT_EQ(text(1), "TIME, BY Tim: NOISE AND MORE") << "a name is a word of its own";
+  EXPECT_EQ(text(2), "TODAY  CAPTURE: noise") << "what stands behind a colon";
+  const auto& rows = std::get<TableBlock>(other.blocks()[3]).rows;
+  EXPECT_EQ(rows[0][0].plain() + rows[0][1].plain(), "Topnoise");
+  EXPECT_EQ(rows[1][0].plain() + rows[1][1].plain(), "TOPMOSTNOISE HERE");
 }
 
 /// Columns are aligned by what stands in them, whatever a language makes of it.

@@ -109,12 +109,11 @@ TEST_F(ReportSections, WhatIsGoneWhenTheReportIsWrittenIsSaidInItsPlace) {
   options.evaluated = CampaignEvaluation();
   std::string text = html(options);
   EXPECT_THAT(text, HasSubstr("The first image of every fiducial and state"));
-  EXPECT_THAT(text, HasSubstr("1 of 2 pictures is left out: captures/images/b.png is missing or cannot be read."));
+  EXPECT_THAT(text, HasSubstr("1 of 2 pictures left out, because missing or not readable: captures/images/b.png."));
   std::filesystem::remove(folder_ / "captures/images/a.png");
   text = html(options);
-  EXPECT_THAT(text,
-              HasSubstr("2 of 2 pictures are left out: captures/images/a.png and captures/images/b.png are missing "
-                        "or cannot be read."));
+  EXPECT_THAT(text, HasSubstr("2 of 2 pictures left out, because missing or not readable: captures/images/a.png and "
+                              "captures/images/b.png."));
   EXPECT_THAT(text, Not(HasSubstr("The first image of"))) << "no empty frames";
 }
 
@@ -160,7 +159,7 @@ TEST_F(ReportSections, TellsPlanChecksCompensationAndVerification) {
   const std::string text = html(options);
   EXPECT_THAT(text, HasSubstr("stated by the operator, not measured"));
   EXPECT_THAT(text, HasSubstr("EX returns within 4 µm only."));
-  EXPECT_THAT(text, HasSubstr("1 of 1 planned item was not captured."));
+  EXPECT_THAT(text, HasSubstr("Not captured: 1 of 1 planned item."));
   EXPECT_THAT(text, HasSubstr("12.30 µm"));
   EXPECT_THAT(text, HasSubstr("10.5 ± 0.3"));
   EXPECT_THAT(text, HasSubstr("added to the command"));

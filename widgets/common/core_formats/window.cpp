@@ -125,6 +125,7 @@ namespace {
     QT_TRANSLATE_NOOP("help", "A log alone has a report too: conditions, displacements, ISO 230-3 where it is such a test, model and compensation."),
     QT_TRANSLATE_NOOP("help", "A model no longer holds after a spindle change, a re-levelling, a crash, a repair or a move, after a named step or drift, and where a later campaign came out otherwise."),
     QT_TRANSLATE_NOOP("help", "A trend has one value a campaign. Dashed: control limits (3 standard deviations: scatter from campaign to campaign and uncertainty of the value). The moving average (EWMA) sees small shifts that last. Limits begin anew after an event that makes the machine another one. A change is named where chance makes one in fewer than 1 of 100 records. <i>Report</i> writes all of a machine into one file."),
+    QT_TRANSLATE_NOOP("help", "A window in another language writes it in English and in its own; the one that is chosen is shown, printed and saved."),
     QT_TRANSLATE_NOOP("help", "An instrument that is still warming up measures itself. Measure one point every 5 minutes, then press <b>Check the drift</b>: its fit says whether the instrument has settled."),
     QT_TRANSLATE_NOOP("help", "An uncertainty is one standard deviation unless stated otherwise."),
     QT_TRANSLATE_NOOP("help", "Arrows are drawn larger by the factor that is stated. A click on a point chooses its row, a row its point."),

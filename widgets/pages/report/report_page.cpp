@@ -9,7 +9,6 @@
 #include <QHeaderView>
 #include <QLabel>
 #include <QLineEdit>
-#include <QSettings>
 #include <QSplitter>
 #include <QStackedWidget>
 #include <QStandardPaths>
@@ -18,7 +17,6 @@
 #include <QUrl>
 #include <QVBoxLayout>
 #include <algorithm>
-#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "core/base/atomic_file.h"
@@ -29,6 +27,7 @@
 #include "widgets/common/core_sentence.h"
 #include "widgets/common/languages.h"
 #include "widgets/common/parts.h"
+#include "widgets/common/report_files.h"
 #include "widgets/jobs/task_job.h"
 #include "widgets/models/rows_model.h"
 #include "widgets/panels/common/effect_titles.h"
@@ -39,8 +38,6 @@ namespace spindrift::gui {
 namespace {
 
 constexpr auto report_result = "report";
-constexpr auto english = "en";
-constexpr auto language_setting = "report/language";
 
 /// By the ending of `target`, .pdf or .html. Throws InputError.
 void saveCopy(const std::filesystem::path& html, const std::filesystem::path& pdf, const QString& target) {
@@ -89,15 +86,15 @@ ReportPage::ReportPage(PageContext page_context, QWidget* parent)
   language_->setAccessibleName(tr("Language of the report"));
   language_->setToolTip(tr("The report is written in both languages: the one that is shown is printed and saved"));
   for (const Language& one : availableLanguages()) {
-    if (one.code == QLatin1String(english) || one.code == currentLanguage()) language_->addItem(one.own_name, one.code);
+    if (one.code == availableLanguages().front().code || one.code == currentLanguage())
+      language_->addItem(one.own_name, one.code);
   }
-  const QString kept = QSettings().value(QLatin1String(language_setting), currentLanguage()).toString();
-  language_->setCurrentIndex(std::max(0, language_->findData(kept)));
+  language_->setCurrentIndex(std::max(0, language_->findData(reportLanguage())));
   for (QWidget* w : {static_cast<QWidget*>(language_title_), static_cast<QWidget*>(language_)})
     w->setVisible(language_->count() > 1);
   left->body()->addWidget(language_);
   connect(language_, &QComboBox::activated, this, [this] {
-    QSettings().setValue(QLatin1String(language_setting), language_->currentData());
+    chooseReportLanguage(language_->currentData().toString());
     shown_result_ = 0;
     refresh();
   });
@@ -147,14 +144,7 @@ ReportPage::ReportPage(PageContext page_context, QWidget* parent)
 
 std::filesystem::path ReportPage::storedFile(const char* key) {
   const StoredResult* stored = session().latest(report_result);
-  if (stored == nullptr) return {};
-  const auto in = [&](const nlohmann::json& files) {
-    return files.is_object() && files.contains(key) ? session().folder() / files.value(key, std::string())
-                                                    : std::filesystem::path();
-  };
-  const nlohmann::json translations = stored->payload.value("translations", nlohmann::json::object());
-  const std::string language = language_->currentData().toString().toStdString();
-  return translations.contains(language) ? in(translations.at(language)) : in(stored->payload);
+  return stored == nullptr ? std::filesystem::path() : storedReport(session().folder(), stored->payload, key);
 }
 
 void ReportPage::refresh() {
@@ -183,12 +173,10 @@ void ReportPage::refresh() {
     shown_result_ = stored->id;
     openDocument();
   }
-  const QString language = language_->currentData().toString();
-  const bool written = language == QLatin1String(english) || stored->payload.contains("translations");
   if (const ResultState state = session().state(report_result); !state.current) {
     callout()->show(Tone::Outdated, tr("Changed since the report was written: %1.").arg(state.changed));
     callout()->setAction(tr("Write again"), [this] { write(); });
-  } else if (!written) {
+  } else if (!isWrittenIn(stored->payload, reportLanguage())) {
     callout()->show(Tone::Neutral, tr("This report was written in English only."));
     callout()->setAction(tr("Write again"), [this] { write(); });
   } else {
@@ -246,7 +234,10 @@ void ReportPage::showDocument(std::shared_ptr<ReportPages> document) {
       row.id = QString::number(index++);
       Cell page{QString::number(section.page + 1)};
       page.right = true;
-      const QString title = coreSentence(section.title);
+      // Of a report by an earlier version, which is English.
+      const auto stored = session().result(report_result);
+      const bool written = stored && isWrittenIn(stored->payload, reportLanguage());
+      const QString title = written ? section.title : coreSentence(section.title);
       row.cells = {{title}, page};
       row.cells[0].tip = title;
       rows.push_back(std::move(row));

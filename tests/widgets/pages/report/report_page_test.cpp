@@ -21,6 +21,7 @@
 #include "widgets/commands/commands.h"
 #include "widgets/common/languages.h"
 #include "widgets/common/parts.h"
+#include "widgets/common/report_files.h"
 #include "widgets/pages/discrepancy/discrepancy_page.h"
 #include "widgets/theme/theme.h"
 
@@ -189,6 +190,10 @@ class GermanReportPageTest : public ReportPageTest {
     Q_EMIT choice->activated(choice->currentIndex());
     wait();
   }
+  /// The file that the window prints.
+  [[nodiscard]] std::string printed() {
+    return storedReport(window_->session().folder(), window_->session().latest("report")->payload, "pdf").string();
+  }
   [[nodiscard]] QString firstSection() const { return page_->document()->sections().front().title; }
 };
 
@@ -202,10 +207,13 @@ TEST_F(GermanReportPageTest, ShowsTheReportInEitherLanguage) {
   EXPECT_NE(german.find("In der Simulation"), std::string::npos) << "what was found";
   EXPECT_NE(german.find("spindle.growth.z"), std::string::npos) << "ids stay";
   EXPECT_EQ(german.find("standard uncertainty"), std::string::npos);
+  EXPECT_TRUE(printed().ends_with(".de.pdf")) << printed();
   choose("en");
   EXPECT_EQ(firstSection(), QStringLiteral("Summary"));
   EXPECT_NE(readFile(page_->file()).find("<html lang=\"en\">"), std::string::npos);
   EXPECT_EQ(state(), StepState::Current);
+  EXPECT_FALSE(printed().ends_with(".de.pdf")) << printed();
+  EXPECT_EQ(printed(), page_->pdf().string());
   const QString saved = QString::fromStdString((folder_ / "report.pdf").string());
   page_->saveTo(saved);
   wait();
