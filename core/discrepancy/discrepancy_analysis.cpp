@@ -382,6 +382,8 @@ std::optional<JudgedAnalysis> withFarClock(const DiscrepancyInput& input, const 
                                            const DiscrepancyOptions& options, const DiscrepancyPriors& priors,
                                            JobContext& job) {
   if (!near.enough || !input.log || input.tangents || options.max_effects == 0) return std::nullopt;
+  // Read from the simulation, which is computed from the log.
+  if (input.log_clock_uncertainty_s > 0.0) return std::nullopt;
   const Analysis& analysis = *near.analysis;
   // What nothing in the log drives may stand for what the log drives at another time.
   const auto& named = near.judged.named;
