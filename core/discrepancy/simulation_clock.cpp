@@ -10,6 +10,8 @@
 #include <memory>
 #include <utility>
 
+#include "core/base/error.h"
+
 namespace spindrift {
 namespace {
 
@@ -125,6 +127,22 @@ Left leftAt(const Compared& compared, const PredictedAt& predicted, double offse
   return out;
 }
 
+/// Of the offsets that were looked at the one at which least is left; the present one to begin with.
+struct LeastLeft {
+  LeastLeft(const Compared& series, const PredictedAt& simulation) : compared(series), predicted(simulation) {}
+  void look(double at_s) {
+    const double left = leftAt(compared, predicted, at_s).ratio();
+    if (!(left < ratio)) return;
+    ratio = left;
+    offset_s = at_s;
+  }
+
+  const Compared& compared;
+  const PredictedAt& predicted;
+  double offset_s = 0.0;
+  double ratio = 1.0;
+};
+
 /// The offset between steps, `best_s` the one at which least is left. `least_s`: no clock is read better; `unread_s`:
 /// uncertainty where what is left beside it says nothing.
 SimulationClock between(const Compared& compared, const PredictedAt& predicted, double best_s, double step_s,
@@ -163,6 +181,7 @@ std::string SimulationClock::sentence(bool followed) const {
   const char* way = offset_s > 0.0 ? "later" : "earlier";
   const double less = 100.0 * (1.0 - scatter);
   if (std::abs(offset_s) <= near_s) {
+    SPINDRIFT_ASSERT(followed, "minutes are looked for only where the simulation can be asked at another time");
     return fmt::format(
         "The observations agree better with the simulation of about {:.0f} s {} ({:.0f} % less scatter, in most "
         "components and most of the time), so they are compared with simulation and log at that time.",
@@ -189,27 +208,19 @@ std::optional<SimulationClock> farSimulationClock(const std::vector<Observation>
   constexpr double coarse_s = 600.0;
   constexpr double fine_s = 60.0;
   constexpr int most_steps = 24;
-  double best_s = 0.0;
-  double best = 1.0;
-  const auto look = [&](double offset_s) {
-    const double ratio = leftAt(compared, predicted, offset_s).ratio();
-    if (ratio < best) {
-      best = ratio;
-      best_s = offset_s;
-    }
-  };
-  for (int k = -most_steps; k <= most_steps; ++k) look(k * coarse_s);
+  LeastLeft least(compared, predicted);
+  for (int k = -most_steps; k <= most_steps; ++k) least.look(k * coarse_s);
   constexpr double far_better = 0.5;
-  if (best > far_better) return std::nullopt;
-  const double about_s = best_s;
+  if (least.ratio > far_better) return std::nullopt;
+  const double about_s = least.offset_s;
   for (int k = 1; k * fine_s < coarse_s; ++k) {
-    look(about_s - k * fine_s);
-    look(about_s + k * fine_s);
+    least.look(about_s - k * fine_s);
+    least.look(about_s + k * fine_s);
   }
   constexpr double far_s = 1200.0;
-  if (std::abs(best_s) < far_s) return std::nullopt;
-  if (leftAt(compared, predicted, best_s).shareOfPartsWithLess() < most_parts) return std::nullopt;
-  return between(compared, predicted, best_s, fine_s, fine_s, coarse_s);
+  if (std::abs(least.offset_s) < far_s) return std::nullopt;
+  if (leftAt(compared, predicted, least.offset_s).shareOfPartsWithLess() < most_parts) return std::nullopt;
+  return between(compared, predicted, least.offset_s, fine_s, fine_s, coarse_s);
 }
 
 std::optional<SimulationClock> nearSimulationClock(const std::vector<Observation>& observations,
@@ -218,27 +229,20 @@ std::optional<SimulationClock> nearSimulationClock(const std::vector<Observation
   if (compared.series.empty()) return std::nullopt;
   constexpr double coarse_s = 60.0;
   constexpr double fine_s = 20.0;
-  double best_s = 0.0;
-  double best = 1.0;
-  const auto look = [&](double offset_s) {
-    const double ratio = leftAt(compared, predicted, offset_s).ratio();
-    if (ratio < best) {
-      best = ratio;
-      best_s = offset_s;
-    }
-  };
+  LeastLeft least(compared, predicted);
   for (double offset_s = coarse_s; offset_s <= near_s; offset_s += coarse_s) {
-    look(offset_s);
-    look(-offset_s);
+    least.look(offset_s);
+    least.look(-offset_s);
   }
-  const double about_s = best_s;
-  for (const double by_s : {-2.0 * fine_s, -fine_s, fine_s, 2.0 * fine_s}) look(about_s + by_s);
-  if (best_s == 0.0 || std::abs(best_s) > near_s - coarse_s) return std::nullopt;  // nothing, or not within minutes
+  const double about_s = least.offset_s;
+  for (const double by_s : {-2.0 * fine_s, -fine_s, fine_s, 2.0 * fine_s}) least.look(about_s + by_s);
+  if (least.offset_s == 0.0 || std::abs(least.offset_s) > near_s - coarse_s)
+    return std::nullopt;  // nothing, or not within minutes
   constexpr double least_s = 2.0;
   constexpr double many = 6.0;  // standard uncertainties: they do not know what is missing in the simulation
-  const SimulationClock clock = between(compared, predicted, best_s, fine_s, least_s, near_s);
+  const SimulationClock clock = between(compared, predicted, least.offset_s, fine_s, least_s, near_s);
   if (std::abs(clock.offset_s) < many * clock.standard_uncertainty_s) return std::nullopt;
-  if (leftAt(compared, predicted, best_s).shareOfPartsWithLess() < most_parts) return std::nullopt;
+  if (leftAt(compared, predicted, least.offset_s).shareOfPartsWithLess() < most_parts) return std::nullopt;
   return clock;
 }
 
