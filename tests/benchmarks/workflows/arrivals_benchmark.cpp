@@ -14,26 +14,25 @@ int main(int argc, char** argv) {
   const auto captures = static_cast<std::size_t>(argc > 1 ? std::atoll(argv[1]) : 100'000);
   const auto touches = static_cast<std::size_t>(argc > 2 ? std::atoll(argv[2]) : 1'000'000);
   bool grows = false;
-  const auto tell = [](const char* what) {
-    return [what](std::size_t arrived, double cpu_us, double wall_us) {
-      fmt::print("{:>9} {}: {:9.1f} us of CPU time each, {:9.1f} us until it is stored\n", arrived, what, cpu_us,
-                 wall_us);
+  const auto judge = [&](const char* what, auto& arriving, std::size_t count) {
+    const auto tell = [what](std::size_t arrived, const testing::BatchCost& each) {
+      fmt::print("{:>9} {}: {:9.1f} us of CPU time each, {:9.1f} us until it is stored\n", arrived, what, each.cpu_us,
+                 each.wall_us);
       std::fflush(stdout);
     };
-  };
-  const auto judge = [&](const char* what, const testing::ArrivalCosts& costs) {
-    fmt::print("{}: the last tenth costs {:.2f} times the second\n", what, costs.growth());
-    grows = grows || costs.growth() > most_growth;
+    const double growth = testing::growthOver(arriving, count, std::max<std::size_t>(count / 1000, 10), tell);
+    fmt::print("{}: the last tenth costs {:.2f} times the second\n", what, growth);
+    grows = grows || growth > most_growth;
   };
   if (captures > 0) {
     const testing::FolderWithoutDisk folder;
-    judge("captures", testing::costsOfCaptures(folder.path(), captures, std::max<std::size_t>(captures / 1000, 10),
-                                               tell("captures")));
+    testing::ArrivingCaptures arriving(folder.path(), captures);
+    judge("captures", arriving, captures);
   }
   if (touches > 0) {
     const testing::FolderWithoutDisk folder;
-    judge("touches",
-          testing::costsOfTouches(folder.path(), touches, std::max<std::size_t>(touches / 1000, 10), tell("touches")));
+    testing::ArrivingTouches arriving(folder.path());
+    judge("touches", arriving, touches);
   }
   return grows ? 1 : 0;
 }

@@ -481,15 +481,19 @@ TEST(FolderWatchTest, AmongManyFilesOneThatIsWrittenAgainIsNoticed) {
 }
 
 TEST(ArrivalCosts, ACaptureCostsTheSameAfterThousands) {
-  const testing::FolderWithoutDisk folder;
-  const testing::ArrivalCosts costs = testing::costsOfCaptures(folder.path(), 5000, 50);
-  EXPECT_LT(costs.growth(), 1.5) << costs.cpu_us.at(1) << " us, then " << costs.cpu_us.back() << " us";
+  const testing::FolderWithoutDisk many_folder;
+  const testing::FolderWithoutDisk few_folder;
+  testing::ArrivingCaptures many(many_folder.path(), 6000);
+  testing::ArrivingCaptures few(few_folder.path(), 6000);
+  EXPECT_LT(testing::growthBeside(many, few, 5000, 50, 19), 1.5);
 }
 
 TEST(ArrivalCosts, ATouchCostsTheSameAfterThousands) {
-  const testing::FolderWithoutDisk folder;
-  const testing::ArrivalCosts costs = testing::costsOfTouches(folder.path(), 20000, 100);
-  EXPECT_LT(costs.growth(), 1.5) << costs.cpu_us.at(1) << " us, then " << costs.cpu_us.back() << " us";
+  const testing::FolderWithoutDisk many_folder;
+  const testing::FolderWithoutDisk few_folder;
+  testing::ArrivingTouches many(many_folder.path());
+  testing::ArrivingTouches few(few_folder.path());
+  EXPECT_LT(testing::growthBeside(many, few, 20000, 100, 19), 1.5);
 }
 
 TEST(PlanTally, CountsAsTheListsDo) {
