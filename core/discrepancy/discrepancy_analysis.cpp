@@ -88,7 +88,9 @@ bool differs(const NoiseModel& a, const NoiseModel& b) {
     const ComponentNoise& x = a.component[c];
     const ComponentNoise& y = b.component[c];
     if ((x.tail_dof > 0.0) != (y.tail_dof > 0.0)) return true;
-    if (ratio(x.scale, y.scale) > 0.1 || std::abs(x.correlated_part - y.correlated_part) > 0.2) return true;
+    if (ratio(x.scale, y.scale) > 0.1 || std::abs(x.correlated_part - y.correlated_part) > 0.2 ||
+        std::abs(x.drift_part - y.drift_part) > 0.2)
+      return true;
     if ((x.common > 0.0 || y.common > 0.0) && ratio(x.common + 0.02, y.common + 0.02) > 0.25) return true;
   }
   return false;
@@ -118,8 +120,8 @@ double simulationError(const ResidualProblem& problem, const ResidualProblem::Nu
 
 /// Noise and effects in turn, beginning with the noise that the problem has and under its nuisances, until neither
 /// changes. `off`: a part of the simulation that is taken to be of the wrong size; or null.
-void alternate(Analysis& a, const DiscrepancyInput& input, ResidualProblem& problem, const DiscrepancyOptions& options,
-               const DiscrepancyPriors& priors, bool exact, const ModelTerm* off, JobContext& job) {
+void settle(Analysis& a, const DiscrepancyInput& input, ResidualProblem& problem, const DiscrepancyOptions& options,
+            const DiscrepancyPriors& priors, bool exact, const ModelTerm* off, JobContext& job) {
   a.simulation_error = exact ? 0.0 : std::max(input.simulation_gain_uncertainty, usual_simulation_error);
   a.hypotheses.chooseWindows(a.catalogue, problem, [&](const std::string&) {
     return CandidateLibrary::Given{Eigen::MatrixXd(problem.projectedResidual().size(), 0), problem.projectedResidual()};
@@ -168,25 +170,73 @@ void alternate(Analysis& a, const DiscrepancyInput& input, ResidualProblem& prob
   }
 }
 
+/// The effects that were put in, by hand or as a part of the simulation, if there are others and noise made as large as
+/// needed is the more probable one in the place of every one of these.
+std::optional<std::vector<ModelTerm>> likelierNoise(const EffectPosterior& posterior, const ModelTerm* off) {
+  std::vector<ModelTerm> put_in;
+  for (std::size_t t = 0; t < posterior.slots.size(); ++t) {
+    const ModelTerm& term = posterior.fit.terms[t];
+    if (posterior.forced[t] || (off != nullptr && term.effect->id == off->effect->id)) {
+      put_in.push_back(term);
+    } else if (!(posterior.slots[t].over_noise < 0.0)) {
+      return std::nullopt;
+    }
+  }
+  if (put_in.size() == posterior.slots.size()) return std::nullopt;
+  return put_in;
+}
+
+/// The same, and once more from the noise that takes the place of all effects where that is the more probable answer:
+/// noise and effects in turn stop at either of the two, for each is estimated beside the other.
+void alternate(Analysis& a, const DiscrepancyInput& input, ResidualProblem& problem, const DiscrepancyOptions& options,
+               const DiscrepancyPriors& priors, bool exact, const ModelTerm* off, JobContext& job) {
+  constexpr int most_given_up = 3;
+  for (int given_up = 0;; ++given_up) {
+    settle(a, input, problem, options, priors, exact, off, job);
+    const std::optional<std::vector<ModelTerm>> put_in = likelierNoise(a.posterior, off);
+    if (!put_in || given_up == most_given_up) return;
+    Eigen::VectorXd left = problem.without(a.search->solve(*put_in).contribution);
+    left -= problem.nuisancePart(left).values;
+    problem.setNoise(estimateNoise(problem, left, true));
+  }
+}
+
 /// Without what states or neighbours in time have in common, in these components.
 NoiseModel ownNoiseOf(NoiseModel noise,
                       const std::vector<Component>& components = {all_components.begin(), all_components.end()}) {
   for (const Component c : components) {
     ComponentNoise& n = noise.of(c);
     n.common = 0.0;
+    n.drift_part = 0.0;
+    n.drift_time_s = 0.0;
     n.correlated_part = 0.0;
     n.correlation_time_s = 0.0;
   }
   return noise;
 }
 
+/// rms of the held-out displacements as a fit predicts them, um; NaN where there are too few to judge by.
+double heldOutRms(const DiscrepancyInput& input, const ComparableRows& rows, const ResidualProblem& problem,
+                  const Analysis& analysis, const JointFit& fit) {
+  constexpr std::size_t enough = 20;
+  if (rows.held_out.size() < enough) return std::nan("");
+  std::vector<double> part(input.predicted.size(), 0.0);
+  for (const ModelEffect& effect : predictingEffects(*analysis.search, problem, *analysis.drivers, fit)) {
+    const std::vector<double> one = EffectModel::contribution(*analysis.drivers, effect, input.observations.rows);
+    for (std::size_t r = 0; r < part.size(); ++r) part[r] += one[r];
+  }
+  const RowResult result = evaluateRows(input, rows.fit, rows.held_out, part);
+  return result.holdout_rows < enough ? std::nan("") : result.holdout_rms;
+}
+
 /// Noise and effects together. The first noise is estimated before any effect is known, and what moves all points of a
 /// state alike may have gone into it: where nothing is found beside such noise, or states are shifted by more than an
 /// instrument shifts them, the search begins once more with the own noise of the readings alone. Its answer stands if
-/// it is the more probable one with noise and a smooth remainder made as large as either answer needs, and leaves no
-/// such shifts: what follows a part of them alone may be anything.
-void weigh(Analysis& a, const DiscrepancyInput& input, ResidualProblem& problem, const DiscrepancyOptions& options,
-           const DiscrepancyPriors& priors, bool exact, const ModelTerm* off, JobContext& job) {
+/// it is the more probable one with noise and a smooth remainder made as large as either answer needs, leaves no such
+/// shifts, for what follows a part of them alone may be anything, and foretells what was held out no worse.
+void weigh(Analysis& a, const DiscrepancyInput& input, const ComparableRows& rows, ResidualProblem& problem,
+           const DiscrepancyOptions& options, const DiscrepancyPriors& priors, bool exact, const ModelTerm* off,
+           JobContext& job) {
   const ResidualProblem::NuisancePart first = problem.nuisancePart(problem.y);
   const NoiseModel start = estimateNoise(problem, problem.y - first.values, false);
   const double clock_at_start_s = a.clock_offset_s;
@@ -204,6 +254,8 @@ void weigh(Analysis& a, const DiscrepancyInput& input, ResidualProblem& problem,
   const double clock_offset_s = a.clock_offset_s;
   const double clock_uncertainty_s = a.clock_uncertainty_s;
   const double simulation_error = a.simulation_error;
+  const auto heldOut = [&] { return heldOutRms(input, rows, problem, a, a.posterior.fit); };
+  const double held_out = heldOut();
   std::unique_ptr<EffectSearch> search = std::move(a.search);
   EffectPosterior posterior = std::move(a.posterior);
   Remainder remainder = std::move(a.remainder);
@@ -221,7 +273,7 @@ void weigh(Analysis& a, const DiscrepancyInput& input, ResidualProblem& problem,
                                                 [&](const ModelTerm& t) { return t.effect->id == term.effect->id; });
       });
   if (driven && a.posterior.over_unknown > posterior.over_unknown + priors.instead_of_common_noise &&
-      movedTogether(problem, problem.noise).empty())
+      movedTogether(problem, problem.noise).empty() && !(heldOut() > worse_held_out * held_out))
     return;
   a.drivers->shiftClock(clock_offset_s - a.clock_offset_s);
   a.clock_offset_s = clock_offset_s;
@@ -242,8 +294,8 @@ const SimulationPart* largestError(const std::vector<SimulationPart>& parts, con
   return &*std::find_if(parts.begin(), parts.end(), [&](const SimulationPart& p) { return p.id == largest.id; });
 }
 
-void analyse(Analysis& a, const DiscrepancyInput& input, ResidualProblem& problem, const DiscrepancyOptions& options,
-             const DiscrepancyPriors& priors, JobContext& job) {
+void analyse(Analysis& a, const DiscrepancyInput& input, const ComparableRows& rows, ResidualProblem& problem,
+             const DiscrepancyOptions& options, const DiscrepancyPriors& priors, JobContext& job) {
   // Absolute values that are said to be predicted exactly: what deviates is none of the simulation's own scale.
   const bool exact = input.absolute && !(input.simulation_gain_uncertainty > 0.0);
   // Where a simulator says which of its parameters are uncertain, its parts are not doubted beyond what is stated.
@@ -260,7 +312,7 @@ void analyse(Analysis& a, const DiscrepancyInput& input, ResidualProblem& proble
   problem.setNoise(estimateNoise(problem, problem.y - problem.nuisancePart(problem.y).values, false));
   parts = partsOfSimulation(problem, *a.drivers, a.catalogue, priors, job);
   problem.setNuisances(nuisancesOf(priors.simulation_error));
-  weigh(a, input, problem, options, priors, exact, nullptr, job);
+  weigh(a, input, rows, problem, options, priors, exact, nullptr, job);
   if (exact || input.tangents || !(priors.rough_simulation_error > input.simulation_gain_uncertainty)) return;
   // An effect may be what a rough simulation leaves: a part that is somewhat too large or too small, not one missing.
   const auto sizes = [&] {
@@ -308,7 +360,7 @@ void analyse(Analysis& a, const DiscrepancyInput& input, ResidualProblem& proble
   }
   if (far != nullptr) {
     problem.setNuisances(nuisancesOf(priors.simulation_error));
-    weigh(a, input, problem, options, priors, exact, &far->term, job);
+    weigh(a, input, rows, problem, options, priors, exact, &far->term, job);
     for (std::size_t t = 0; t < a.posterior.slots.size(); ++t)
       if (a.posterior.fit.terms[t].effect->id == far->id) a.posterior.slots[t].probability *= far_probability;
     return;
@@ -317,7 +369,7 @@ void analyse(Analysis& a, const DiscrepancyInput& input, ResidualProblem& proble
     problem.setNuisances(nuisancesOf(priors.simulation_error));
     return;
   }
-  weigh(a, input, problem, options, priors, exact, nullptr, job);
+  weigh(a, input, rows, problem, options, priors, exact, nullptr, job);
   for (const PartError& error : partErrors(problem, parts, first_part, problem.without(a.posterior.fit.contribution))) {
     if (std::abs(error.relative) < 2.0 * error.uncertainty) continue;
     a.notes.push_back(
@@ -328,20 +380,6 @@ void analyse(Analysis& a, const DiscrepancyInput& input, ResidualProblem& proble
                     error.relative > 0.0 ? "much" : "little", error.id,
                     100.0 * priors.rough_simulation_limit * priors.rough_simulation_error));
   }
-}
-
-/// rms of the held-out displacements as a fit predicts them, um; NaN where there are too few to judge by.
-double heldOutRms(const DiscrepancyInput& input, const ComparableRows& rows, const ResidualProblem& problem,
-                  const Analysis& analysis, const JointFit& fit) {
-  constexpr std::size_t enough = 20;
-  if (rows.held_out.size() < enough) return std::nan("");
-  std::vector<double> part(input.predicted.size(), 0.0);
-  for (const ModelEffect& effect : predictingEffects(*analysis.search, problem, *analysis.drivers, fit)) {
-    const std::vector<double> one = EffectModel::contribution(*analysis.drivers, effect, input.observations.rows);
-    for (std::size_t r = 0; r < part.size(); ++r) part[r] += one[r];
-  }
-  const RowResult result = evaluateRows(input, rows.fit, rows.held_out, part);
-  return result.holdout_rows < enough ? std::nan("") : result.holdout_rms;
 }
 
 JudgedAnalysis withClock(const DiscrepancyInput& input, const DiscrepancyOptions& options,
@@ -367,7 +405,7 @@ JudgedAnalysis withClock(const DiscrepancyInput& input, const DiscrepancyOptions
   if (!out.enough) out.options.max_effects = 0;
   out.analysis = std::make_unique<Analysis>(std::move(drivers), std::move(catalogue),
                                             SimulatorHypotheses(input.tangents.get(), input.observations));
-  analyse(*out.analysis, input, *out.problem, out.options, priors, job);
+  analyse(*out.analysis, input, out.rows, *out.problem, out.options, priors, job);
   const Analysis& analysis = *out.analysis;
   out.warnings.insert(out.warnings.end(), analysis.notes.begin(), analysis.notes.end());
   out.judged = judge(*out.problem, *analysis.search, analysis.posterior, analysis.remainder, priors, out.options,

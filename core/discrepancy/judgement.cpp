@@ -30,12 +30,10 @@ constexpr double remainder_evidence = 10.0;
 constexpr double unknown_price = 4.6;
 /// In 2 ln: every further effect in one component is so much less probable than one cause that nobody thought of.
 constexpr double further_price = 20.0;
-/// rms of what is held out with an effect over that without it, from which on it is taken back.
-constexpr double worse_held_out = 1.05;
 /// In evidence: what is there without doubt is told, even where its course cannot be foretold; but not where all names
-/// together make the gap on what is held out so much larger.
+/// together make the gap on what is held out larger by so much.
 constexpr double beyond_held_out = 200.0;
-constexpr double much_worse_held_out = 1.1;
+constexpr double much_worse_held_out = 1.04;
 /// Of a course or a pattern another may leave this part of its power and is still the same to the eye of the data.
 constexpr double alike = 0.03;
 /// Rivals beside the effect; more is no answer.
@@ -129,7 +127,7 @@ double imitationRatio(const ResidualProblem& problem, const EffectSearch& search
     if (told[static_cast<std::size_t>(c)]) left += std::pow(remaining[u] / sigma, 2);
     const ComponentNoise& n = problem.noise.of(c);
     const double reading = problem.reading_sigma[u] * n.scale;
-    left += std::max(0.0, n.common * n.common - n.varianceOfTails() * reading * reading) / (sigma * sigma);
+    left += n.shiftsBeyond(std::sqrt(n.varianceOfTails()) * reading) / (sigma * sigma);
   }
   const double power = std::min(own_power, together_power);
   // A step is a step: it has no dynamics that could be a little different.
@@ -296,6 +294,23 @@ std::string describedRemainder(const ResidualProblem& problem, const JointFit& f
   return joinedList(parts);
 }
 
+/// Takes the shift of every state off `left`, its median over the points, in components whose shifts are noise.
+void takeShifts(const ResidualProblem& problem, Eigen::VectorXd& left) {
+  const std::vector<Component> more = movedTogether(problem, problem.noise);
+  std::map<std::pair<Component, int>, std::vector<double>> values;
+  for (std::size_t u = 0; u < problem.component.size(); ++u) {
+    const Component c = problem.component[u];
+    if (problem.noise.of(c).common > 0.0 && std::find(more.begin(), more.end(), c) == more.end())
+      values[{c, problem.epoch[u]}].push_back(left[static_cast<Index>(u)]);
+  }
+  std::map<std::pair<Component, int>, double> shifts;
+  for (const auto& [key, of_state] : values) shifts[key] = median(of_state);
+  for (std::size_t u = 0; u < problem.component.size(); ++u) {
+    const auto shift = shifts.find({problem.component[u], problem.epoch[u]});
+    if (shift != shifts.end()) left[static_cast<Index>(u)] -= shift->second;
+  }
+}
+
 /// Scatter that is far from what is stated because most of it is one pattern over the points that comes and goes from
 /// state to state, too fast to be smooth: one time history times one pattern against noise that is as large, by BIC.
 std::string patternInScatter(const ResidualProblem& problem, const JointFit& fit) {
@@ -310,6 +325,7 @@ std::string patternInScatter(const ResidualProblem& problem, const JointFit& fit
     auto series = left.segment(from, problem.series_begin[static_cast<std::size_t>(s) + 1] - from);
     series.array() -= median(std::vector<double>(series.begin(), series.end()));
   }
+  takeShifts(problem, left);
   std::vector<std::string> parts;
   for (const Component c : all_components) {
     std::map<int, Index> row;

@@ -23,6 +23,8 @@ constexpr double scale_prior_sd = 1.0;
 constexpr double shift_price = 4.0;
 constexpr double correlation_price = 8.0;
 constexpr double tail_price = 6.0;
+/// The same of shifts of states that follow each other in time, beside shifts that do not.
+constexpr double drift_price = 6.0;
 /// The same of a component that is normal although others are not.
 constexpr double normal_price = 4.0;
 /// Of noise that is correlated in time, actual / stated sigma.
@@ -56,7 +58,10 @@ struct ComponentData {
   Eigen::VectorXd residual;
   Eigen::VectorXd sigma;
   Eigen::VectorXd weight;
-  Eigen::MatrixXd shifts;  // indicator of the state
+  Eigen::MatrixXd shifts;  // indicator of the state, times the factor by which shifts follow each other
+  std::vector<double> state_time_s;
+  double drift_part = 0.0;  // of `shifts`
+  double drift_time_s = 0.0;
   Eigen::MatrixXd smooth;  // patterns in space times hats in time, each of mean square 1 where it is not zero
   double mean_sigma = 1.0;
   double reading_sigma = 1.0;      // of single readings: units may be the means of many
@@ -140,6 +145,14 @@ Products productsOf(const ResidualProblem& problem, const ComponentData& data, d
   }
   out.gram.triangularView<Eigen::StrictlyUpper>() = out.gram.transpose();
   return out;
+}
+
+/// The same where shifts that were independent follow each other as by `factor`.
+Products drifting(Products products, const Eigen::MatrixXd& factor) {
+  const Index s = factor.rows();
+  products.gram.topRows(s) = factor.transpose() * products.gram.topRows(s).eval();
+  products.gram.leftCols(s) = products.gram.leftCols(s).eval() * factor;
+  return products;
 }
 
 /// -2 ln of the restricted likelihood, up to a constant; the Cholesky factor of the bordered matrix in `factor`.
@@ -358,6 +371,9 @@ ComponentData componentData(const ResidualProblem& problem, const Eigen::VectorX
   const double per_state = static_cast<double>(n) / static_cast<double>(states.size());
   if (problem.epochs_are_states && per_state >= 2.5 && out.series.size() >= 3) {
     out.shifts = Eigen::MatrixXd::Zero(n, static_cast<Index>(states.size()));
+    out.state_time_s.resize(states.size());
+    for (const auto& [epoch, column] : states)
+      out.state_time_s[static_cast<std::size_t>(column)] = problem.epoch_time_s[static_cast<std::size_t>(epoch)];
     for (Index i = 0; i < n; ++i) {
       out.shifts(i, states[problem.epoch[static_cast<std::size_t>(out.units[static_cast<std::size_t>(i)])]]) = 1.0;
     }
@@ -432,11 +448,64 @@ struct ComponentEstimate {
   ComponentData data;
 };
 
+/// Shifts of `data` independent again, or as they follow each other.
+void setDrift(const ResidualProblem& problem, ComponentData& data, double part, double time_s) {
+  if (data.shifts.cols() == 0) return;
+  std::map<int, Index> states;
+  data.shifts.setZero();
+  for (Index i = 0; i < data.shifts.rows(); ++i) {
+    const int epoch = problem.epoch[static_cast<std::size_t>(data.units[static_cast<std::size_t>(i)])];
+    data.shifts(i, states.try_emplace(epoch, static_cast<Index>(states.size())).first->second) = 1.0;
+  }
+  data.drift_part = part;
+  data.drift_time_s = time_s;
+  if (part > 0.0) data.shifts *= shiftFactor(data.state_time_s, part, time_s);
+}
+
+/// Whether the shifts of states follow each other in time: an instrument that drifts. Starts from the independent ones
+/// in `p`, whose deviance is `best`; returns the deviance of what is more probable. `step_s`: from state to state.
+double findDrift(const ResidualProblem& problem, ComponentData& data, const Products& independent, double step_s,
+                 Parameters& p, double best) {
+  constexpr Index fewest_states = 8;
+  if (!(p.shift > 0.0) || data.shifts.cols() < fewest_states || !(step_s > 0.0)) return best;
+  struct Found {
+    double deviance = 1e300;
+    Parameters p;
+    double part = 0.0;
+    double time_s = 0.0;
+  } found;
+  const auto consider = [&](double part, double time_s, Parameters trial, int rounds) {
+    const Products products = drifting(independent, shiftFactor(data.state_time_s, part, time_s));
+    const double deviance = optimise(data, products, problem.free_constants, true, trial, rounds);
+    if (deviance < found.deviance) found = {deviance, trial, part, time_s};
+  };
+  for (const double steps : {2.0, 8.0}) {
+    consider(0.9, steps * step_s, p, 3);
+    // Without the smooth part, which may have taken the drift.
+    Parameters alone = p;
+    alone.smooth *= 0.01;
+    alone.shift *= 2.0;
+    if (data.smooth.cols() > 0) consider(0.9, steps * step_s, alone, 3);
+  }
+  if (found.deviance > best + drift_price) return best;
+  for (int round = 0; round < 2; ++round) {
+    const Found at = found;
+    for (const double part : {0.6 * at.part, 1.0 - 0.3 * (1.0 - at.part)}) consider(part, at.time_s, at.p, 2);
+    const Found then = found;
+    for (const double factor : {0.55, 1.8}) consider(then.part, factor * then.time_s, then.p, 2);
+  }
+  if (found.deviance > best - drift_price) return best;
+  setDrift(problem, data, found.part, found.time_s);
+  p = found.p;
+  return found.deviance;
+}
+
 /// Scale, shift, smooth part and correlation at the weights of `data`. `careful`: nothing is known of the signal yet,
 /// so shifts are small and nothing is correlated, or the noise would take the signal.
 void estimateAt(const ResidualProblem& problem, ComponentEstimate& e, bool again, bool careful) {
   const bool constants = problem.free_constants;
   const bool shifts = e.data.shifts.cols() > 0;
+  setDrift(problem, e.data, 0.0, 0.0);
   Products products = productsOf(problem, e.data, 0.0, 0.0);
   Parameters white = e.p;
   white.part = 0.0;
@@ -456,14 +525,18 @@ void estimateAt(const ResidualProblem& problem, ComponentEstimate& e, bool again
     }
   }
   if (careful) white.shift = std::min(white.shift, careful_shift * std::exp(white.log_scale) * e.data.reading_sigma);
-  Parameters chosen = white;
-  Products chosen_products = products;
-  // Correlated in time: tried from what is common among slow instruments to slow rooms.
   std::vector<double> steps;
   for (std::size_t i = 1; i < problem.epoch_time_s.size(); ++i) {
     steps.push_back(problem.epoch_time_s[i] - problem.epoch_time_s[i - 1]);
   }
   const double step = steps.empty() ? 0.0 : median(steps);
+  if (!careful) {
+    best = findDrift(problem, e.data, products, step, white, best);
+    if (e.data.drift_part > 0.0) products = productsOf(problem, e.data, 0.0, 0.0);
+  }
+  Parameters chosen = white;
+  Products chosen_products = products;
+  // Own noise that is correlated in time: tried from what is common among slow instruments to slow rooms.
   // Series of one reading each have no course in time that could be correlated.
   const bool courses = 2 * e.data.series.size() <= static_cast<std::size_t>(e.data.residual.size());
   const bool enough = !careful && courses && e.data.residual.size() >= 24 && steps.size() >= 7 && step > 0.0;
@@ -679,6 +752,8 @@ NoiseModel estimateNoise(const ResidualProblem& problem, const Eigen::VectorXd& 
     n.scale = std::max(e.data.least_scale, std::exp(e.p.log_scale));
     n.scale_uncertainty = e.uncertainty;
     n.common = e.p.shift;
+    n.drift_part = e.p.shift > 0.0 ? e.data.drift_part : 0.0;
+    n.drift_time_s = n.drift_part > 0.0 ? e.data.drift_time_s : 0.0;
     n.correlated_part = e.p.part;
     n.correlation_time_s = e.p.part > 0.0 ? e.p.time_s : 0.0;
     n.tail_dof = tails[c];
@@ -708,8 +783,9 @@ NoiseProfiles noiseProfiles(const ResidualProblem& problem, const Eigen::VectorX
     e.p.part = n.correlated_part;
     e.p.time_s = n.correlation_time_s;
     const std::vector<double> sizes = shiftSizes(problem, c < 3);
-    const auto profile = [&](ComponentEstimate estimate) {
+    const auto profile = [&](ComponentEstimate estimate, ComponentNoise* shifts = nullptr) {
       estimateWithCourses(problem, estimate, false, false);
+      if (shifts != nullptr) shifts->drift_part = estimate.data.drift_part;
       return estimate.data.shifts.cols() > 0 ? shiftDeviances(problem, estimate, sizes)
                                              : std::vector<double>{estimate.deviance};
     };
@@ -722,10 +798,13 @@ NoiseProfiles noiseProfiles(const ResidualProblem& problem, const Eigen::VectorX
     }
     e.data.smooth.resize(readings, 0);
     e.data.hats.resize(readings, 0);
-    const double most_um = largest_shift * std::exp(e.p.log_scale) * e.data.reading_sigma;
-    out[c].noise_alone = profile(std::move(e));
-    for (std::size_t i = 0; i + 1 < out[c].noise_alone.size(); ++i)
-      if (sizes[i] > most_um) out[c].noise_alone[i] = out[c].noise_alone.back() + impossible;
+    const double own_um = std::exp(e.p.log_scale) * e.data.reading_sigma;
+    ComponentNoise shifted;
+    out[c].noise_alone = profile(e, &shifted);
+    for (std::size_t i = 0; i + 1 < out[c].noise_alone.size(); ++i) {
+      shifted.common = sizes[i];
+      if (shifted.shiftsBeyond(own_um) > 0.0) out[c].noise_alone[i] = out[c].noise_alone.back() + impossible;
+    }
   });
   return out;
 }
@@ -763,39 +842,6 @@ double jointDeviance(const NoiseProfiles& profiles, std::vector<double> NoisePro
     double sum = (1.0 - shifts_at_all) * std::exp(-most);
     for (const double ln : ln_level) sum += shifts_at_all / static_cast<double>(ln_level.size()) * std::exp(ln - most);
     out -= 2.0 * (most + std::log(sum));
-  }
-  return out;
-}
-
-double ComponentNoise::varianceOfStudent() const noexcept {
-  return tail_dof > 2.0 ? tail_dof / (tail_dof - 2.0) : 1.0;
-}
-
-double ComponentNoise::varianceOfTails() const noexcept {
-  const double dof = std::max(4.0, tail_dof);
-  return tail_dof > 0.0 ? dof / (dof - 2.0) : 1.0;
-}
-
-double NoiseModel::heaviestTails() const noexcept {
-  double out = 0.0;
-  for (const ComponentNoise& n : component) {
-    if (n.tail_dof > 0.0 && (!(out > 0.0) || n.tail_dof < out)) out = n.tail_dof;
-  }
-  return out;
-}
-
-std::vector<Component> movedTogether(const ResidualProblem& problem, const NoiseModel& noise, double shift) {
-  std::vector<Component> out;
-  for (const Component c : all_components) {
-    double own = 0.0;
-    double count = 0.0;
-    for (Index u = 0; u < problem.size(); ++u) {
-      if (problem.component[static_cast<std::size_t>(u)] != c) continue;
-      own += std::pow(problem.reading_sigma[u] * noise.of(c).scale, 2);
-      count += 1.0;
-    }
-    if (count > 0.0 && noise.of(c).common > shift * std::sqrt(noise.of(c).varianceOfTails() * own / count))
-      out.push_back(c);
   }
   return out;
 }

@@ -29,6 +29,9 @@ PlaceKey placeKey(const Observation& o) {
 
 /// Points of one place each, more than this, may be merged with their neighbours.
 constexpr std::size_t many_points = 48;
+/// Units there may be for each that there might be of merged points, where only readings that follow each other in time
+/// can be merged: they are less alike than neighbours are.
+constexpr std::size_t units_in_time = 3;
 
 /// Splits points at the median of the longest side until no group has more than `size`; returns the group of each.
 void splitPoints(const std::vector<Eigen::Vector3d>& at, std::vector<std::size_t> members, std::size_t size,
@@ -139,8 +142,15 @@ ResidualProblem::ResidualProblem(const DiscrepancyInput& input, const std::vecto
   };
 
   // Neighbours that become one unit: points where places stay and states are named, else readings in time.
-  const std::size_t bin = std::max<std::size_t>(1, (rows.size() + unit_limit - 1) / unit_limit);
-  const bool merge_points = bin > 1 && places_stay && epochs_are_states && point_names.size() > many_points;
+  const auto perUnit = [&](std::size_t limit) { return std::max<std::size_t>(1, (rows.size() + limit - 1) / limit); };
+  const bool merge_points =
+      perUnit(unit_limit) > 1 && places_stay && epochs_are_states && point_names.size() > many_points;
+  const std::size_t bin = perUnit(merge_points ? unit_limit : units_in_time * unit_limit);
+  // States that are merged are the same ones for all series: what shifts a state shifts all of its readings.
+  if (!merge_points && epochs_are_states && bin > 1) {
+    for (auto& [name, index] : states) index /= static_cast<int>(bin);
+    epoch_count = (epoch_count - 1) / static_cast<int>(bin) + 1;
+  }
   std::vector<int> group_of(point_names.size());
   if (merge_points) {
     std::vector<Eigen::Vector3d> at;
@@ -253,10 +263,13 @@ ResidualProblem::ResidualProblem(const DiscrepancyInput& input, const std::vecto
       for (std::size_t m = i; m < end; ++m) by_epoch[epochOf(all[rows[order[m]]])].push_back(order[m]);
       for (auto& [epoch_index, members] : by_epoch) bins.push_back({0.0, std::move(members)});
     } else {
-      // Grouped by place, each group cut into bins of neighbours in time.
-      std::map<PlaceKey, std::vector<std::size_t>> groups;
-      for (std::size_t m = i; m < end; ++m) groups[placeKey(all[rows[order[m]]])].push_back(order[m]);
-      for (const auto& [place_key, members] : groups) {
+      // Grouped by place and states, each group cut into bins of neighbours in time.
+      std::map<std::pair<PlaceKey, int>, std::vector<std::size_t>> groups;
+      for (std::size_t m = i; m < end; ++m) {
+        const Observation& o = all[rows[order[m]]];
+        groups[{placeKey(o), epochs_are_states ? epochOf(o) : 0}].push_back(order[m]);
+      }
+      for (const auto& [group, members] : groups) {
         for (std::size_t from = 0; from < members.size(); from += bin) {
           const std::size_t to = std::min(members.size(), from + bin);
           bins.push_back({0.0,
@@ -611,16 +624,36 @@ void ResidualProblem::makeBlocks() {
   }
 }
 
+void ResidualProblem::takeDrift(const NoiseModel& drifts, const ShiftColumns& shifts, Eigen::MatrixXd& z) const {
+  for (auto from = shifts.begin(); from != shifts.end();) {
+    const int c = from->first.first;
+    const auto to = shifts.lower_bound({c + 1, 0});
+    const ComponentNoise& n = drifts.component[static_cast<std::size_t>(c)];
+    if (n.drift_part > 0.0) {
+      std::vector<double> times_s;
+      std::vector<Index> columns;
+      for (auto at = from; at != to; ++at) {
+        times_s.push_back(epoch_time_s[static_cast<std::size_t>(at->first.second)]);
+        columns.push_back(at->second);
+      }
+      const Eigen::MatrixXd independent = z(Eigen::all, columns);
+      z(Eigen::all, columns) = independent * shiftFactor(times_s, n.drift_part, n.drift_time_s);
+    }
+    from = to;
+  }
+}
+
 void ResidualProblem::setNoise(const NoiseModel& model) {
   noise = model;
   makeBlocks();
+  const NoiseModel drifts = asInstrumentsDrift(*this, noise);
   domain_noise_.assign(domains_.size(), {});
   constant_count_ = 0;
   for (std::size_t d = 0; d < domains_.size(); ++d) {
     const Domain& domain = domains_[d];
     DomainNoise& n = domain_noise_[d];
     // Whitened shifts of the states and factors of many series, orthonormal.
-    std::map<std::pair<int, int>, Index> shifts;
+    ShiftColumns shifts;
     for (Index u = domain.from; u < domain.from + domain.count; ++u) {
       const Component c = component[static_cast<std::size_t>(u)];
       if (!(noise.of(c).common > 0.0)) continue;
@@ -635,11 +668,12 @@ void ResidualProblem::setNoise(const NoiseModel& model) {
       for (Index u = domain.from; u < domain.from + domain.count; ++u) {
         const Component c = component[static_cast<std::size_t>(u)];
         const auto at = shifts.find({static_cast<int>(c), epoch[static_cast<std::size_t>(u)]});
-        if (at != shifts.end()) z(u - domain.from, at->second) = noise.of(c).common;
+        if (at != shifts.end()) z(u - domain.from, at->second) = drifts.of(c).common;
         const double load_scale = noise.of(c).scale * std::sqrt(1.0 - slowPart(u));
         for (std::size_t k = 0; k < factors.size(); ++k)
           z(u - domain.from, shift_count + static_cast<Index>(k)) = load_scale * wide_(u, factors[k]);
       }
+      takeDrift(drifts, shifts, z);
       whitenDomain(d, z);
       const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(z.transpose() * z);
       Eigen::MatrixXd basis(domain.count, z.cols());

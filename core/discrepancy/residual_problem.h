@@ -3,24 +3,28 @@
 //
 //   r = constant(series) + nuisances + X beta + shift(component, state) + e
 //   cov(e) = s_i s_j sigma_i sigma_j [(1 - a) (rho_ij + delta_ij (1 / w_i - 1)) + a exp(-|dt| / T) within a series]
-//   shift(component, state) ~ N(0, common^2), the same for all points of a state: re-referencing, refocus, re-zeroing
+//   shift(component, state), the same for all points of a state: re-referencing, refocus, re-zeroing, an instrument
+//   that drifts; cov(shift_k, shift_l) ~ (1 - b) delta_kl + b exp(-|dt| / T_b), such that common is the standard
+//   deviation of shifts about their mean: what a drift slower than the campaign is besides shows nowhere
 //
-// s, a, T and common are one set for each component ((1 - a) between two: the root of both); w_i <= 1 is the weight of
-// a reading in a noise with heavy tails: what it adds is own noise. rho: correlations of what observations share
-// (SharedNoise), carried over to the units, 1 for i = j; so cov(e) is positive semidefinite whatever the parameters.
-// Factors that many series share stand beside the blocks of series as a part of low rank, like the shifts.
+// s, a, T, common, b and T_b are one set for each component ((1 - a) between two: the root of both); w_i <= 1 is the
+// weight of a reading in a noise with heavy tails: what it adds is own noise. rho: correlations of what observations
+// share (SharedNoise), carried over to the units, 1 for i = j; so cov(e) is positive semidefinite whatever the
+// parameters. Factors that many series share stand beside the blocks of series as a part of low rank, like the shifts.
 //
 // A unit is one observation, or, where there are very many, the mean of neighbours: of points close to each other in
-// one state where places do not change, else of readings of one series that follow each other. Drivers are averaged
-// over the same times and shapes over the same points, so this loses only what differs inside a bin. Units are ordered
-// by component, series and time. Vectors "projected" are whitened, have one extra row for each prior, and are
+// one state where places do not change, else of readings of one series in states that follow each other. Drivers are
+// averaged over the same times and shapes over the same points, so this loses only what differs inside a bin. Units are
+// ordered by component, series and time. Vectors "projected" are whitened, have one extra row for each prior, and are
 // orthogonal to all nuisances. Sources: Sherman and Morrison 1950, Woodbury 1950 (covariance plus a part of low rank).
 #pragma once
 
 #include <Eigen/Core>
 #include <array>
+#include <map>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/discrepancy/discrepancy.h"
@@ -28,23 +32,29 @@
 
 namespace spindrift {
 
-/// Common shift of a state over the own noise of a reading (standard deviations) that an instrument makes at most,
-/// which is re-referenced, refocused or zeroed again: what shifts states by clearly more than readings scatter is no
-/// noise.
-inline constexpr double largest_shift = 1.2;
-/// The same from which on an effect is looked for in its place: estimates of such shifts, and of the readings' scatter
-/// beside them, are far off while an effect is not known.
+/// Standard deviation of the shifts of states over that of the own noise of a reading that an instrument makes at most:
+/// of shifts that follow each other in time, as it drifts, and of those that do not, as it is re-referenced, refocused
+/// or zeroed again, which nothing that heats a machine looks like. What shifts states by clearly more is no noise.
+inline constexpr double largest_drift_shift = 1.0;
+inline constexpr double largest_reference_shift = 2.0;
+/// The same of any from which on an effect is looked for in its place: estimates of such shifts, and of the readings'
+/// scatter beside them, are far off while an effect is not known.
 inline constexpr double doubtful_shift = 0.4;
 
 /// Noise of one component.
 struct ComponentNoise {
   double scale = 1.0;               ///< own noise of a reading: actual / stated sigma
   double scale_uncertainty = 0.0;   ///< standard uncertainty of the scale
-  double common = 0.0;              ///< standard deviation of the shift of a state, um or urad
+  double common = 0.0;              ///< standard deviation of the shift of a state about their mean, um or urad
   double correlated_part = 0.0;     ///< a, 0 ... 1
   double correlation_time_s = 0.0;  ///< T
   double tail_dof = 0.0;            ///< degrees of freedom of the Student distribution of the own noise; 0: normal
+  double drift_part = 0.0;          ///< b, 0 ... 1: of the variance of shifts, what follows itself in time
+  double drift_time_s = 0.0;        ///< T_b
 
+  /// Variance of the shifts of states beyond what an instrument makes whose readings scatter by `own` (standard
+  /// deviation, um or urad).
+  [[nodiscard]] double shiftsBeyond(double own) const noexcept;
   /// Variance of the own noise over the square of its scale, 1 if it is normal.
   [[nodiscard]] double varianceOfStudent() const noexcept;
   /// The same as far as it is noise: what outliers make of it, of very heavy tails not all.
@@ -61,6 +71,10 @@ struct NoiseModel {
   [[nodiscard]] double heaviestTails() const noexcept;
 };
 
+/// Lower Cholesky factor of the covariances of shifts at the times `time_s` over common^2 (see above): shifts are
+/// `common` times the factor times independent ones.
+[[nodiscard]] Eigen::MatrixXd shiftFactor(const std::vector<double>& time_s, double drift_part, double drift_time_s);
+
 /// A nuisance column over the units; prior_sigma = 0: free, else standard deviation of its coefficient.
 struct NuisanceColumn {
   Eigen::VectorXd values;
@@ -68,7 +82,8 @@ struct NuisanceColumn {
   bool relative = false;  ///< its coefficient is a relative error of the simulation
 };
 
-/// Units of a problem: what the search can hold at once, however many readings there are.
+/// Units of a problem: what the search can hold at once, however many readings there are; of few points up to three
+/// times as many.
 inline constexpr std::size_t most_units = 3000;
 
 class ResidualProblem {
@@ -108,6 +123,8 @@ class ResidualProblem {
   /// Shape columns over the units, averaged over the points of each.
   [[nodiscard]] Eigen::MatrixXd shapeAtUnits(const Effect& effect) const;
 
+  /// As estimated. Residuals are whitened with shifts that drift no further than instruments do: what is beyond stays
+  /// to be explained.
   NoiseModel noise;
   void setNoise(const NoiseModel& model);
   /// Sets all nuisances besides the constants; recomputes the projected residual.
@@ -186,6 +203,8 @@ class ResidualProblem {
     std::vector<Eigen::Index> units;
     Eigen::MatrixXd covariance;
   };
+  /// Column of the shift of a component in a state.
+  using ShiftColumns = std::map<std::pair<int, int>, Eigen::Index>;
   void makeNeighbourhoods();
   void takeShared(const SharedNoise& shared, const std::vector<Eigen::Index>& unit_of_row);
   void makeDomains();
@@ -193,6 +212,8 @@ class ResidualProblem {
   void makeBlocks();
   /// Part of the stated noise that follows itself in time (a), 0 ... 1.
   [[nodiscard]] double slowPart(Eigen::Index unit) const;
+  /// Shifts of states that are independent in `z`, each of its standard deviation, as they follow each other in time.
+  void takeDrift(const NoiseModel& drifts, const ShiftColumns& shifts, Eigen::MatrixXd& z) const;
   void whitenDomain(std::size_t domain, Eigen::Ref<Eigen::MatrixXd> rows) const;
   const std::vector<Observation>* observations_ = nullptr;  ///< of the input, which outlives the problem
   std::vector<std::size_t> node_begin_;
@@ -220,9 +241,14 @@ class ResidualProblem {
 /// Sources: Patterson and Thompson 1971 (REML); Lange, Little and Taylor 1989 (Student-t weights).
 [[nodiscard]] NoiseModel estimateNoise(const ResidualProblem& problem, const Eigen::VectorXd& residual, bool fitted);
 
-/// Components in which `noise` shifts states by more than `shift` standard deviations of a reading.
+/// Components in which `noise` shifts states by more than an instrument does.
+[[nodiscard]] std::vector<Component> movedTogether(const ResidualProblem& problem, const NoiseModel& noise);
+/// The same, by more than `shift` standard deviations of a reading.
 [[nodiscard]] std::vector<Component> movedTogether(const ResidualProblem& problem, const NoiseModel& noise,
-                                                   double shift = largest_shift);
+                                                   double shift);
+
+/// `noise` with drifts no larger than an instrument makes them.
+[[nodiscard]] NoiseModel asInstrumentsDrift(const ResidualProblem& problem, NoiseModel noise);
 
 /// How probable a residual of one component is under noise that is made as large as it needs: -2 ln of the restricted
 /// likelihood for every size of the shifts of states, the last without any; one value where states cannot be shifted.

@@ -10,6 +10,7 @@
 #include <set>
 
 #include "core/base/text.h"
+#include "core/base/unit_text.h"
 #include "core/math/distributions.h"
 
 namespace spindrift {
@@ -53,6 +54,16 @@ void warnAboutOutliers(const ResidualProblem& problem, const Eigen::VectorXd& le
   }
 }
 
+/// What an instrument drifts by is told: it could have been looked for in the machine.
+void tellDrift(Component c, const ComponentNoise& n, std::vector<std::string>& warnings) {
+  constexpr double s_per_min = 60.0;
+  if (!(n.drift_part > 0.0)) return;
+  warnings.push_back(
+      fmt::format("{} of all points drifts together by {:.2f} {} rms, with a correlation time of {:.0f} "
+                  "min: it is taken for a drift of the instrument.",
+                  toString(c), std::sqrt(n.drift_part) * n.common, printedUnit(unitOf(c)), n.drift_time_s / s_per_min));
+}
+
 void tellScales(const ResidualProblem& problem, DiscrepancyResult& result) {
   result.tail_dof = problem.noise.heaviestTails();
   for (const Component c : std::set<Component>(problem.component.begin(), problem.component.end())) {
@@ -60,6 +71,7 @@ void tellScales(const ResidualProblem& problem, DiscrepancyResult& result) {
     const double tails = std::sqrt(n.varianceOfStudent());
     const double scale = n.scale * tails;
     result.noise.push_back({c, scale, n.scale_uncertainty * tails, n.common, n.correlated_part, n.correlation_time_s});
+    tellDrift(c, n, result.warnings);
     if (scale >= 0.8 && scale <= 1.25) continue;
     const int decimals = std::clamp(1 - static_cast<int>(std::floor(std::log10(scale))), 0, 9);  // two digits count
     result.warnings.push_back(fmt::format("{} scatters {:.{}f} times as much as its stated sigma; it is used as found.",

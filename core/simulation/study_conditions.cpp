@@ -24,7 +24,8 @@ enum class ConditionStream : std::uint64_t {
   Clock,
   Sensors,
   Gaps,
-  Uneven
+  Uneven,
+  Drift
 };
 
 Random streamOf(std::uint64_t seed, ConditionStream stream) {
@@ -93,6 +94,32 @@ double strengthOf(const std::vector<double>& signal, const std::vector<Observati
   for (const auto& [component, sum] : sums) strength = std::max(strength, std::sqrt(sum.first / sum.second));
   return strength;
 }
+
+/// Courses that an instrument drifts along, in sigma, each component for itself: exponentially correlated in time.
+class InstrumentDrift {
+ public:
+  explicit InstrumentDrift(std::uint64_t seed)
+      : random_(streamOf(seed, ConditionStream::Drift)),
+        size_(random_.uniform(0.5, 1.0)),
+        time_s_(random_.uniform(1800.0, 3600.0)) {}
+  [[nodiscard]] double time_s() const { return time_s_; }
+  /// At times that do not decrease.
+  double next(Component component, double time_s) {
+    const auto [at, first] = at_.try_emplace(component, time_s, size_ * random_.normal());
+    auto& [last_s, value] = at->second;
+    if (first || time_s <= last_s) return value;
+    const double kept = std::exp(-(time_s - last_s) / time_s_);
+    value = kept * value + size_ * std::sqrt(1.0 - kept * kept) * random_.normal();
+    last_s = time_s;
+    return value;
+  }
+
+ private:
+  Random random_;
+  double size_;
+  double time_s_;
+  std::map<Component, std::pair<double, double>> at_;
+};
 
 bool isBase(const CampaignTruth& truth, const std::string& id) {
   return std::find(truth.base.begin(), truth.base.end(), id) != truth.base.end();
@@ -176,6 +203,7 @@ nlohmann::json StudyConditions::json() const {
   return {{"sigma", sigma},
           {"tails", tails},
           {"common", common},
+          {"drift", drift},
           {"warm_start", warm_start},
           {"clock", clock},
           {"coarse_sensors", coarse_sensors},
@@ -226,11 +254,8 @@ nlohmann::json AppliedConditions::json() const {
   for (const auto& [key, value] : shifts) {
     shift.push_back({{"state", key.first}, {"component", toString(key.second)}, {"shift", value}});
   }
-  return {{"stated_over_real_sigma", sigma},
-          {"outliers", outliers},
-          {"shifts", shift},
-          {"warm_start_s", warm_start_s},
-          {"clock_offset_s", clock_offset_s}};
+  return {{"stated_over_real_sigma", sigma}, {"outliers", outliers},         {"shifts", shift},
+          {"drift_time_s", drift_time_s},    {"warm_start_s", warm_start_s}, {"clock_offset_s", clock_offset_s}};
 }
 
 AppliedConditions applyConditions(VirtualCampaign& campaign, const StudyConditions& c, double strength, double ar1,
@@ -258,6 +283,8 @@ AppliedConditions applyConditions(VirtualCampaign& campaign, const StudyConditio
   const std::vector<double> noise = unitNoise(rows, c.tails, ar1, seed);
   Random outlier_random = streamOf(seed, ConditionStream::Outliers);
   Random common_random = streamOf(seed, ConditionStream::Common);
+  InstrumentDrift drift(seed);
+  applied.drift_time_s = c.drift ? drift.time_s() : 0.0;
   std::vector<bool> outlier(rows.size(), false);
   for (std::size_t i = 0; i < rows.size(); ++i) {
     Observation& row = rows[i];
@@ -268,9 +295,10 @@ AppliedConditions applyConditions(VirtualCampaign& campaign, const StudyConditio
       outlier[i] = true;
     }
     double value = truth.total[i] + row.sigma * off;
-    if (c.common) {
+    if (c.common || c.drift) {
       const auto [shift, fresh] = applied.shifts.try_emplace({row.state, row.component}, 0.0);
-      if (fresh) shift->second = 0.6 * row.sigma * common_random.normal();
+      if (fresh && c.common) shift->second += 0.6 * row.sigma * common_random.normal();
+      if (fresh && c.drift) shift->second += row.sigma * drift.next(row.component, row.time_s);
       value += shift->second;
     }
     row.value = std::round(value * 1e4) / 1e4;

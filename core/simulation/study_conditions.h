@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // What happens to a campaign in a workshop: sigmas that are stated wrongly, heavy tails, states that are re-referenced,
-// a machine that is warm when the log begins, clocks that differ, poor sensors, gaps, shapes that are uneven. Each
-// alone or together, on campaigns of the study (study_campaigns.h). Deterministic by seed, each condition with a stream
-// of random numbers of its own, so that switching one on leaves the others as they are.
+// an instrument that drifts, a machine that is warm when the log begins, clocks that differ, poor sensors, gaps, shapes
+// that are uneven. Each alone or together, on campaigns of the study (study_campaigns.h). Deterministic by seed, each
+// condition with a stream of random numbers of its own, so that switching one on leaves the others as they are.
 #pragma once
 
 #include <cstdint>
@@ -21,6 +21,7 @@ struct StudyConditions {
   bool sigma = false;       ///< stated sigma = real sigma x a factor per component, log-uniform 0.6 ... 1.6
   bool tails = false;       ///< noise of Student's t, nu = 4, of the same variance; 1 % of the rows off by 6-15 sigma
   bool common = false;      ///< a shift per state and component, common to all points, 0.6 sigma
+  bool drift = false;       ///< a drift per component, common to all points, 0.5-1 sigma, 0.5-1 h (Ornstein-Uhlenbeck)
   bool warm_start = false;  ///< the machine has been running for 2-3 h when log and observations begin
   bool clock = false;       ///< the clock of the observations is off against the log by up to +-240 s
   bool coarse_sensors = false;  ///< temperatures in steps of 0.5 K
@@ -45,7 +46,8 @@ void prepare(Scenario& scenario, const StudyConditions& conditions, std::uint64_
 struct AppliedConditions {
   std::map<Component, double> stated_over_real_sigma;
   std::vector<std::size_t> outliers;                           ///< rows of the observations, from 0
-  std::map<std::pair<std::string, Component>, double> shifts;  ///< of each state (um, urad)
+  std::map<std::pair<std::string, Component>, double> shifts;  ///< of each state (um, urad): common and drift
+  double drift_time_s = 0.0;
   double warm_start_s = 0.0;
   double clock_offset_s = 0.0;
   [[nodiscard]] nlohmann::json json() const;

@@ -11532,6 +11532,10 @@ endgültig fehlgeschlagen: {}</translation>
         <source>{} of {} left out, because missing or not readable: {}.</source>
         <translation>{} von {} ausgelassen, weil nicht vorhanden oder nicht lesbar: {}.</translation>
     </message>
+    <message>
+        <source>{} of all points drifts together by {:.2f} {} rms, with a correlation time of {:.0f} min: it is taken for a drift of the instrument.</source>
+        <translation>{} aller Punkte driftet gemeinsam um {:.2f} {} rms, mit einer Korrelationszeit von {:.0f} min: Es gilt als Drift des Messgeräts.</translation>
+    </message>
 </context>
 <context>
     <name>help</name>

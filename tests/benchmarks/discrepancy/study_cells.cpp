@@ -22,6 +22,7 @@ std::vector<Cell> makeCells() {
   alone("sigma", 2, [](StudyConditions& c) { c.sigma = true; });
   alone("tails", 2, [](StudyConditions& c) { c.tails = true; });
   alone("common shift", 2, [](StudyConditions& c) { c.common = true; });
+  alone("drift", 2, [](StudyConditions& c) { c.drift = true; });
   alone("warm start", 2, [](StudyConditions& c) { c.warm_start = true; });
   alone("base off 8 %", 2, [](StudyConditions& c) { c.base_error = 0.08; });
   alone("base off 30 %", 2, [](StudyConditions& c) { c.one_base_error = 0.3; });
@@ -36,6 +37,9 @@ std::vector<Cell> makeCells() {
   add("three, together", Row::Three, StudyKind::Three, 5.0, 5, 3, together);
   add("nothing, clean", Row::Nothing, StudyKind::Nothing, 1.0, 4, 2);
   add("nothing, together", Row::Nothing, StudyKind::Nothing, 1.0, 6, 5, together);
+  StudyConditions drifting;
+  drifting.drift = true;
+  add("nothing, drift", Row::Nothing, StudyKind::Nothing, 1.0, 4, 2, drifting);
   add("outside, clean", Row::Outside, StudyKind::Outside, 5.0, 4, 2);
   add("outside, together", Row::Outside, StudyKind::Outside, 5.0, 4, 2, together);
   add("slow noise, one, 4", Row::SlowNoise, StudyKind::One, 4.0, 4, 0, {}, 0.9);

@@ -250,7 +250,22 @@ TEST(ResidualProblem, WhitensWhatItIsToldOf) {
   noise.component[0] = {1.2, 0.0, 0.3, 0.0, 0.0};
   noise.component[1] = {0.8, 0.0, 0.0, 0.7, 6000.0};
   noise.component[2] = {1.0, 0.0, 0.4, 0.5, 3000.0};
+  noise.component[2].drift_part = 0.7;
+  noise.component[2].drift_time_s = 4000.0;
   problem.setNoise(noise);
+  // Shifts that drift: of variance 1 about their mean.
+  const auto states = static_cast<Eigen::Index>(problem.epoch_time_s.size());
+  Eigen::MatrixXd drift(states, states);
+  for (Eigen::Index k = 0; k < states; ++k) {
+    for (Eigen::Index l = 0; l < states; ++l) {
+      const double dt_s = std::abs(problem.epoch_time_s[static_cast<std::size_t>(k)] -
+                                   problem.epoch_time_s[static_cast<std::size_t>(l)]);
+      drift(k, l) = 0.7 * std::exp(-dt_s / 4000.0) + (k == l ? 0.3 : 0.0);
+    }
+  }
+  const double about_mean =
+      (drift.trace() - drift.sum() / static_cast<double>(states)) / static_cast<double>(states - 1);
+  drift /= about_mean;
   const Eigen::Index n = problem.size();
   Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(n, n);
   for (Eigen::Index i = 0; i < n; ++i) {
@@ -259,7 +274,11 @@ TEST(ResidualProblem, WhitensWhatItIsToldOf) {
       const auto b = static_cast<std::size_t>(j);
       if (problem.component[a] != problem.component[b]) continue;
       const ComponentNoise& c = noise.of(problem.component[a]);
-      if (problem.epoch[a] == problem.epoch[b]) covariance(i, j) += c.common * c.common;
+      if (c.drift_part > 0.0) {
+        covariance(i, j) += c.common * c.common * drift(problem.epoch[a], problem.epoch[b]);
+      } else if (problem.epoch[a] == problem.epoch[b]) {
+        covariance(i, j) += c.common * c.common;
+      }
       if (problem.series[a] != problem.series[b]) continue;
       const double s = problem.sigma[i] * problem.sigma[j] * c.scale * c.scale;
       if (c.correlation_time_s > 0.0) {

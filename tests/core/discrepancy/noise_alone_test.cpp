@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -24,15 +25,16 @@ constexpr double own_um = 0.6;
 constexpr std::array<Component, 3> axes = {Component::EX, Component::EY, Component::EZ};
 constexpr std::array<bool, 6> translations = {true, true, true, false, false, false};
 
-/// Readings that hold own noise, shifts of X, Y, Z (standard deviations, um) and a slow wave along Z (amplitude, um).
+/// Readings that hold own noise, shifts of X, Y, Z (standard deviations, um) and a slow wave along Z (amplitude, um)
+/// that turns over from one end to the other.
 DiscrepancyInput readings(std::uint64_t seed, const std::array<double, 3>& shifts_um, double wave_um,
-                          std::size_t points = few_points) {
+                          std::size_t points = few_points, std::size_t count = states) {
   Random random(seed);
   DiscrepancyInput in;
-  for (std::size_t k = 0; k < states; ++k) {
+  for (std::size_t k = 0; k < count; ++k) {
     std::array<double, 3> common{};
     for (std::size_t c = 0; c < 3; ++c) common[c] = shifts_um[c] * random.normal();
-    common[2] += wave_um * std::sin(6.28 * static_cast<double>(k) / static_cast<double>(states));
+    const double wave = wave_um * std::sin(6.28 * static_cast<double>(k) / static_cast<double>(count));
     for (std::size_t p = 0; p < points; ++p) {
       for (std::size_t c = 0; c < 3; ++c) {
         Observation o;
@@ -43,6 +45,7 @@ DiscrepancyInput readings(std::uint64_t seed, const std::array<double, 3>& shift
         o.component = axes[c];
         o.sigma = own_um;
         o.value = common[c] + own_um * random.normal();
+        if (c == 2) o.value += wave * (static_cast<double>(p % 4) - 1.5) / std::sqrt(1.25);
         in.observations.rows.push_back(o);
       }
     }
@@ -51,11 +54,36 @@ DiscrepancyInput readings(std::uint64_t seed, const std::array<double, 3>& shift
   return in;
 }
 
-NoiseProfiles profilesOf(const DiscrepancyInput& in) {
+/// The same readings by an instrument that drifts: in each axis exponentially correlated, `size_um` (standard
+/// deviation), `time_s`.
+DiscrepancyInput drifting(DiscrepancyInput in, std::uint64_t seed, double size_um, double time_s) {
+  Random random(seed ^ 0xd1f7ULL);
+  std::array<double, 3> at{};
+  for (double& value : at) value = size_um * random.normal();
+  std::string state = in.observations.rows.front().state;
+  double begun_s = in.observations.rows.front().time_s;
+  for (Observation& o : in.observations.rows) {
+    if (o.state != state) {
+      const double kept = std::exp(-(o.time_s - begun_s) / time_s);
+      for (double& value : at) value = kept * value + size_um * std::sqrt(1.0 - kept * kept) * random.normal();
+      state = o.state;
+      begun_s = o.time_s;
+    }
+    o.value += at[static_cast<std::size_t>(std::find(axes.begin(), axes.end(), o.component) - axes.begin())];
+  }
+  return in;
+}
+
+ResidualProblem problemOf(const DiscrepancyInput& in) {
   std::vector<std::size_t> rows(in.observations.rows.size());
   for (std::size_t i = 0; i < rows.size(); ++i) rows[i] = i;
   ResidualProblem problem(in, rows, 3000);
   problem.setNoise(estimateNoise(problem, problem.y, true));
+  return problem;
+}
+
+NoiseProfiles profilesOf(const DiscrepancyInput& in) {
+  const ResidualProblem problem = problemOf(in);
   return noiseProfiles(problem, problem.y, translations);
 }
 
@@ -81,10 +109,89 @@ TEST(NoiseAlone, ExplainsShiftsOfStatesAndNoSlowWave) {
   for (int i = 0; i < campaigns; ++i) {
     const auto seed = 500 + static_cast<std::uint64_t>(i);
     shifts_told += smoothOdds(profilesOf(readings(seed, {0.4, 0.4, 0.4}, 0.0))) >= told ? 1 : 0;
-    waves_told += smoothOdds(profilesOf(readings(seed, {0.0, 0.0, 0.0}, 0.6))) >= told ? 1 : 0;
+    waves_told += smoothOdds(profilesOf(readings(seed, {0.0, 0.0, 0.0}, 0.8))) >= told ? 1 : 0;
   }
   EXPECT_EQ(shifts_told, 0);
   EXPECT_GE(waves_told, 27);
+}
+
+TEST(NoiseAlone, ExplainsAnInstrumentThatDrifts) {
+  constexpr int campaigns = 20;
+  constexpr double told = 10.0;
+  constexpr double drift_s = 3600.0;
+  int found = 0;
+  int independent_found = 0;
+  double ln_size = 0.0;
+  double ln_time = 0.0;
+  for (int i = 0; i < campaigns; ++i) {
+    const auto seed = 1300 + static_cast<std::uint64_t>(i);
+    const DiscrepancyInput in = drifting(readings(seed, {0.0, 0.0, 0.0}, 0.0, 20, 48), seed, 0.5, drift_s);
+    const ResidualProblem problem = problemOf(in);
+    const ComponentNoise& x = problem.noise.of(Component::EX);
+    EXPECT_THAT(movedTogether(problem, problem.noise), IsEmpty()) << seed;
+    EXPECT_LT(smoothOdds(noiseProfiles(problem, problem.y, translations)), told) << seed;
+    if (x.drift_part > 0.5) {
+      ++found;
+      ln_size += std::log(x.common / 0.5);
+      ln_time += std::log(x.drift_time_s / drift_s);
+    }
+    const ResidualProblem still = problemOf(readings(seed, {0.5, 0.5, 0.5}, 0.0, 20, 48));
+    for (const Component c : axes) independent_found += still.noise.of(c).drift_part > 0.0 ? 1 : 0;
+  }
+  EXPECT_GE(found, 16);
+  EXPECT_NEAR(ln_size / found, 0.0, 0.25);
+  EXPECT_NEAR(ln_time / found, 0.0, 0.7);
+  EXPECT_LE(independent_found, 3);
+}
+
+TEST(NoiseAlone, ADriftFarLargerThanReadingsScatterIsNoInstruments) {
+  for (const std::uint64_t seed : {1U, 2U, 3U, 4U}) {
+    const ResidualProblem problem =
+        problemOf(drifting(readings(seed, {0.0, 0.0, 0.0}, 0.0, 20), seed, 4.0 * own_um, 5400.0));
+    EXPECT_FALSE(movedTogether(problem, problem.noise).empty()) << seed;
+    EXPECT_GT(smoothOdds(noiseProfiles(problem, problem.y, translations)), 10.0) << seed;
+  }
+  // What is re-referenced may be shifted by more.
+  ComponentNoise n{1.0, 0.0, 2.0};
+  EXPECT_EQ(n.shiftsBeyond(1.0), 0.0);
+  n.drift_part = 1.0;
+  EXPECT_NEAR(n.shiftsBeyond(1.0), 4.0 - largest_drift_shift * largest_drift_shift, 1e-12);
+}
+
+TEST(NoiseAlone, ShiftsThatDriftHaveUnitVarianceAboutTheirMean) {
+  std::vector<double> times_s;
+  for (int k = 0; k < 30; ++k) times_s.push_back(900.0 * k + 40.0 * (k % 3));
+  for (const double drift_s : {100.0, 3600.0, 1e6}) {
+    const Eigen::MatrixXd factor = shiftFactor(times_s, 0.9, drift_s);
+    const Eigen::MatrixXd covariance = factor * factor.transpose();
+    EXPECT_NEAR((covariance.trace() - covariance.sum() / 30.0) / 29.0, 1.0, 1e-7) << drift_s;
+    EXPECT_GT(covariance(3, 4), covariance(3, 20)) << drift_s;
+  }
+}
+
+TEST(NoiseAlone, ReadingsOfOneStateAreNeverMergedWithThoseOfAnotherWhileUnitsSuffice) {
+  // A few more readings than merged points may have units: pairs of readings, of states that differed from point to
+  // point, hid what states have in common.
+  const std::size_t points = 3100 / (states * 3) + 1;
+  ASSERT_LE(points, 48U);
+  const DiscrepancyInput in = readings(5, {0.5, 0.5, 0.5}, 0.0, points);
+  ASSERT_GT(in.observations.rows.size(), 3000U);
+  const ResidualProblem problem = problemOf(in);
+  EXPECT_EQ(problem.size(), static_cast<Eigen::Index>(in.observations.rows.size()));
+  EXPECT_NEAR(problem.noise.of(Component::EX).common, 0.5, 0.15);
+  EXPECT_NEAR(problem.noise.of(Component::EX).scale, 1.0, 0.05);
+  // Beyond that, the same states are merged in all series.
+  std::vector<std::size_t> rows(in.observations.rows.size());
+  for (std::size_t i = 0; i < rows.size(); ++i) rows[i] = i;
+  const ResidualProblem merged(in, rows, 400);
+  ASSERT_LT(merged.size(), problem.size());
+  std::map<std::string, int> epoch_of;
+  for (std::size_t u = 0; u < merged.unit_rows.size(); ++u) {
+    for (const std::size_t row : merged.unit_rows[u]) {
+      const auto [at, fresh] = epoch_of.try_emplace(in.observations.rows[row].state, merged.epoch[u]);
+      EXPECT_EQ(at->second, merged.epoch[u]) << in.observations.rows[row].state;
+    }
+  }
 }
 
 TEST(NoiseAlone, ShiftsOfStatesAreJudgedByReadingsWhereManyOfThemAreMerged) {
@@ -107,7 +214,7 @@ TEST(NoiseAlone, ShiftsOfStatesAreJudgedByReadingsWhereManyOfThemAreMerged) {
     EXPECT_NEAR(problem.noise.of(Component::EX).common, drawn, 0.1 * drawn) << seed;
     EXPECT_THAT(movedTogether(problem, problem.noise), IsEmpty()) << seed;
     EXPECT_LT(smoothOdds(noiseProfiles(problem, problem.y, translations)), told) << seed;
-    problem.noise.of(Component::EX).common = 1.3 * largest_shift * own_um;
+    problem.noise.of(Component::EX).common = 1.3 * largest_reference_shift * own_um;
     EXPECT_THAT(movedTogether(problem, problem.noise), ElementsAre(Component::EX)) << seed;
   }
 }

@@ -238,6 +238,7 @@ std::span<const char* const> spindrift::gui::core_formats::discrepancy() noexcep
     QT_TRANSLATE_NOOP("core", "{} min"),
     QT_TRANSLATE_NOOP("core", "{} observations are later than the end of the log and are not fitted."),
     QT_TRANSLATE_NOOP("core", "{} observations lie between two rows of the log of different spindle speed and are not fitted: when it changed is not known."),
+    QT_TRANSLATE_NOOP("core", "{} of all points drifts together by {:.2f} {} rms, with a correlation time of {:.0f} min: it is taken for a drift of the instrument."),
     QT_TRANSLATE_NOOP("core", "{} of all points has a common time history{}, {:.2f} {} rms"),
     QT_TRANSLATE_NOOP("core", "{} of all points moves in one pattern from state to state, {:.2f} {} rms"),
     QT_TRANSLATE_NOOP("core", "{} of the rotary table about {}"),
