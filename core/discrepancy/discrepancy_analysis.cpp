@@ -232,11 +232,10 @@ double heldOutRms(const DiscrepancyInput& input, const ComparableRows& rows, con
 /// Noise and effects together. The first noise is estimated before any effect is known, and what moves all points of a
 /// state alike may have gone into it: where nothing is found beside such noise, or states are shifted by more than an
 /// instrument shifts them, the search begins once more with the own noise of the readings alone. Its answer stands if
-/// it is the more probable one with noise and a smooth remainder made as large as either answer needs, leaves no such
-/// shifts, for what follows a part of them alone may be anything, and foretells what was held out no worse.
-void weigh(Analysis& a, const DiscrepancyInput& input, const ComparableRows& rows, ResidualProblem& problem,
-           const DiscrepancyOptions& options, const DiscrepancyPriors& priors, bool exact, const ModelTerm* off,
-           JobContext& job) {
+/// it is the more probable one with noise and a smooth remainder made as large as either answer needs, and leaves no
+/// such shifts: what follows a part of them alone may be anything.
+void weigh(Analysis& a, const DiscrepancyInput& input, ResidualProblem& problem, const DiscrepancyOptions& options,
+           const DiscrepancyPriors& priors, bool exact, const ModelTerm* off, JobContext& job) {
   const ResidualProblem::NuisancePart first = problem.nuisancePart(problem.y);
   const NoiseModel start = estimateNoise(problem, problem.y - first.values, false);
   const double clock_at_start_s = a.clock_offset_s;
@@ -247,15 +246,11 @@ void weigh(Analysis& a, const DiscrepancyInput& input, const ComparableRows& row
   if (options.max_effects == 0 || input.tangents) return;
   const NoiseModel noise = problem.noise;
   const bool nothing = a.posterior.fit.terms.size() == (off == nullptr ? 0 : 1);
-  std::vector<Component> moved = movedTogether(problem, noise);
-  if (moved.empty()) moved = movedTogether(problem, noise, doubtful_shift);
-  const NoiseModel own = nothing ? ownNoiseOf(start) : ownNoiseOf(noise, moved);
+  const NoiseModel own = nothing ? ownNoiseOf(start) : ownNoiseOf(noise, movedTogether(problem, noise, doubtful_shift));
   if (!differs(noise, nothing ? ownNoiseOf(noise) : own)) return;
   const double clock_offset_s = a.clock_offset_s;
   const double clock_uncertainty_s = a.clock_uncertainty_s;
   const double simulation_error = a.simulation_error;
-  const auto heldOut = [&] { return heldOutRms(input, rows, problem, a, a.posterior.fit); };
-  const double held_out = heldOut();
   std::unique_ptr<EffectSearch> search = std::move(a.search);
   EffectPosterior posterior = std::move(a.posterior);
   Remainder remainder = std::move(a.remainder);
@@ -273,7 +268,7 @@ void weigh(Analysis& a, const DiscrepancyInput& input, const ComparableRows& row
                                                 [&](const ModelTerm& t) { return t.effect->id == term.effect->id; });
       });
   if (driven && a.posterior.over_unknown > posterior.over_unknown + priors.instead_of_common_noise &&
-      movedTogether(problem, problem.noise).empty() && !(heldOut() > worse_held_out * held_out))
+      movedTogether(problem, problem.noise).empty())
     return;
   a.drivers->shiftClock(clock_offset_s - a.clock_offset_s);
   a.clock_offset_s = clock_offset_s;
@@ -294,8 +289,8 @@ const SimulationPart* largestError(const std::vector<SimulationPart>& parts, con
   return &*std::find_if(parts.begin(), parts.end(), [&](const SimulationPart& p) { return p.id == largest.id; });
 }
 
-void analyse(Analysis& a, const DiscrepancyInput& input, const ComparableRows& rows, ResidualProblem& problem,
-             const DiscrepancyOptions& options, const DiscrepancyPriors& priors, JobContext& job) {
+void analyse(Analysis& a, const DiscrepancyInput& input, ResidualProblem& problem, const DiscrepancyOptions& options,
+             const DiscrepancyPriors& priors, JobContext& job) {
   // Absolute values that are said to be predicted exactly: what deviates is none of the simulation's own scale.
   const bool exact = input.absolute && !(input.simulation_gain_uncertainty > 0.0);
   // Where a simulator says which of its parameters are uncertain, its parts are not doubted beyond what is stated.
@@ -312,7 +307,7 @@ void analyse(Analysis& a, const DiscrepancyInput& input, const ComparableRows& r
   problem.setNoise(estimateNoise(problem, problem.y - problem.nuisancePart(problem.y).values, false));
   parts = partsOfSimulation(problem, *a.drivers, a.catalogue, priors, job);
   problem.setNuisances(nuisancesOf(priors.simulation_error));
-  weigh(a, input, rows, problem, options, priors, exact, nullptr, job);
+  weigh(a, input, problem, options, priors, exact, nullptr, job);
   if (exact || input.tangents || !(priors.rough_simulation_error > input.simulation_gain_uncertainty)) return;
   // An effect may be what a rough simulation leaves: a part that is somewhat too large or too small, not one missing.
   const auto sizes = [&] {
@@ -360,7 +355,7 @@ void analyse(Analysis& a, const DiscrepancyInput& input, const ComparableRows& r
   }
   if (far != nullptr) {
     problem.setNuisances(nuisancesOf(priors.simulation_error));
-    weigh(a, input, rows, problem, options, priors, exact, &far->term, job);
+    weigh(a, input, problem, options, priors, exact, &far->term, job);
     for (std::size_t t = 0; t < a.posterior.slots.size(); ++t)
       if (a.posterior.fit.terms[t].effect->id == far->id) a.posterior.slots[t].probability *= far_probability;
     return;
@@ -369,7 +364,7 @@ void analyse(Analysis& a, const DiscrepancyInput& input, const ComparableRows& r
     problem.setNuisances(nuisancesOf(priors.simulation_error));
     return;
   }
-  weigh(a, input, rows, problem, options, priors, exact, nullptr, job);
+  weigh(a, input, problem, options, priors, exact, nullptr, job);
   for (const PartError& error : partErrors(problem, parts, first_part, problem.without(a.posterior.fit.contribution))) {
     if (std::abs(error.relative) < 2.0 * error.uncertainty) continue;
     a.notes.push_back(
@@ -405,7 +400,7 @@ JudgedAnalysis withClock(const DiscrepancyInput& input, const DiscrepancyOptions
   if (!out.enough) out.options.max_effects = 0;
   out.analysis = std::make_unique<Analysis>(std::move(drivers), std::move(catalogue),
                                             SimulatorHypotheses(input.tangents.get(), input.observations));
-  analyse(*out.analysis, input, out.rows, *out.problem, out.options, priors, job);
+  analyse(*out.analysis, input, *out.problem, out.options, priors, job);
   const Analysis& analysis = *out.analysis;
   out.warnings.insert(out.warnings.end(), analysis.notes.begin(), analysis.notes.end());
   out.judged = judge(*out.problem, *analysis.search, analysis.posterior, analysis.remainder, priors, out.options,

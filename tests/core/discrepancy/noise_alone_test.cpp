@@ -118,6 +118,7 @@ TEST(NoiseAlone, ExplainsShiftsOfStatesAndNoSlowWave) {
 TEST(NoiseAlone, ExplainsAnInstrumentThatDrifts) {
   constexpr int campaigns = 20;
   constexpr double told = 10.0;
+  constexpr double drift_um = 0.35;
   constexpr double drift_s = 3600.0;
   int found = 0;
   int independent_found = 0;
@@ -125,14 +126,14 @@ TEST(NoiseAlone, ExplainsAnInstrumentThatDrifts) {
   double ln_time = 0.0;
   for (int i = 0; i < campaigns; ++i) {
     const auto seed = 1300 + static_cast<std::uint64_t>(i);
-    const DiscrepancyInput in = drifting(readings(seed, {0.0, 0.0, 0.0}, 0.0, 20, 48), seed, 0.5, drift_s);
+    const DiscrepancyInput in = drifting(readings(seed, {0.0, 0.0, 0.0}, 0.0, 20, 48), seed, drift_um, drift_s);
     const ResidualProblem problem = problemOf(in);
     const ComponentNoise& x = problem.noise.of(Component::EX);
     EXPECT_THAT(movedTogether(problem, problem.noise), IsEmpty()) << seed;
     EXPECT_LT(smoothOdds(noiseProfiles(problem, problem.y, translations)), told) << seed;
     if (x.drift_part > 0.5) {
       ++found;
-      ln_size += std::log(x.common / 0.5);
+      ln_size += std::log(x.common / drift_um);
       ln_time += std::log(x.drift_time_s / drift_s);
     }
     const ResidualProblem still = problemOf(readings(seed, {0.5, 0.5, 0.5}, 0.0, 20, 48));
