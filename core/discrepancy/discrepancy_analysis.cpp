@@ -215,20 +215,6 @@ NoiseModel ownNoiseOf(NoiseModel noise,
   return noise;
 }
 
-/// rms of the held-out displacements as a fit predicts them, um; NaN where there are too few to judge by.
-double heldOutRms(const DiscrepancyInput& input, const ComparableRows& rows, const ResidualProblem& problem,
-                  const Analysis& analysis, const JointFit& fit) {
-  constexpr std::size_t enough = 20;
-  if (rows.held_out.size() < enough) return std::nan("");
-  std::vector<double> part(input.predicted.size(), 0.0);
-  for (const ModelEffect& effect : predictingEffects(*analysis.search, problem, *analysis.drivers, fit)) {
-    const std::vector<double> one = EffectModel::contribution(*analysis.drivers, effect, input.observations.rows);
-    for (std::size_t r = 0; r < part.size(); ++r) part[r] += one[r];
-  }
-  const RowResult result = evaluateRows(input, rows.fit, rows.held_out, part);
-  return result.holdout_rows < enough ? std::nan("") : result.holdout_rms;
-}
-
 /// Noise and effects together. The first noise is estimated before any effect is known, and what moves all points of a
 /// state alike may have gone into it: where nothing is found beside such noise, or states are shifted by more than an
 /// instrument shifts them, the search begins once more with the own noise of the readings alone. Its answer stands if
@@ -375,6 +361,20 @@ void analyse(Analysis& a, const DiscrepancyInput& input, ResidualProblem& proble
                     error.relative > 0.0 ? "much" : "little", error.id,
                     100.0 * priors.rough_simulation_limit * priors.rough_simulation_error));
   }
+}
+
+/// rms of the held-out displacements as a fit predicts them, um; NaN where there are too few to judge by.
+double heldOutRms(const DiscrepancyInput& input, const ComparableRows& rows, const ResidualProblem& problem,
+                  const Analysis& analysis, const JointFit& fit) {
+  constexpr std::size_t enough = 20;
+  if (rows.held_out.size() < enough) return std::nan("");
+  std::vector<double> part(input.predicted.size(), 0.0);
+  for (const ModelEffect& effect : predictingEffects(*analysis.search, problem, *analysis.drivers, fit)) {
+    const std::vector<double> one = EffectModel::contribution(*analysis.drivers, effect, input.observations.rows);
+    for (std::size_t r = 0; r < part.size(); ++r) part[r] += one[r];
+  }
+  const RowResult result = evaluateRows(input, rows.fit, rows.held_out, part);
+  return result.holdout_rows < enough ? std::nan("") : result.holdout_rms;
 }
 
 JudgedAnalysis withClock(const DiscrepancyInput& input, const DiscrepancyOptions& options,

@@ -596,30 +596,17 @@ void PosteriorSearch::weighAgainstUnknown(EffectPosterior& posterior, Remainder&
       }
     }
     const JointFit without = search_->solve(others);
+    Eigen::VectorXd more = problem_->without(without.contribution);
+    const ResidualProblem::NuisancePart taken_more = problem_->nuisancePart(more);
+    more -= taken_more.values;
+    const std::array<bool, 6> changed = differing(*problem_, more, left);
+    NoiseProfiles profiles = noiseProfiles(*problem_, more, changed);
+    for (std::size_t c = 0; c < changed.size(); ++c)
+      if (!changed[c]) profiles[c] = with[c];
     const double gains = static_cast<double>(fit.parameter_count - without.parameter_count) - own_parameters;
-    const double parameters_price = gains * search_->logN() + (priceOf(fit) - priceOf(without));
-    const Eigen::VectorXd more = problem_->without(without.contribution);
-    const auto weight = [&](const ResidualProblem::NuisancePart& taken_more) {
-      const Eigen::VectorXd beside = more - taken_more.values;
-      const std::array<bool, 6> changed = differing(*problem_, beside, left);
-      NoiseProfiles profiles = noiseProfiles(*problem_, beside, changed);
-      for (std::size_t c = 0; c < changed.size(); ++c)
-        if (!changed[c]) profiles[c] = with[c];
-      const double price = parameters_price - (taken_more.price - taken.price);
-      return Weight{jointDeviance(profiles, &NoiseProfile::with_unknown) - with_unknown - price,
-                    jointDeviance(profiles, &NoiseProfile::noise_alone) - noise_alone - price};
-    };
-    const ResidualProblem::NuisancePart first = problem_->nuisancePart(more);
-    Weight out = weight(first);
-    // Noise that takes the place of an effect also spares the nuisances, which were bent to follow it.
-    constexpr double beyond_doubt = 200.0;
-    if (out.over_unknown < beyond_doubt) {
-      ResidualProblem noisier = *problem_;
-      noisier.setNoise(estimateNoise(*problem_, more - first.values, true));
-      const Weight again = weight(noisier.nuisancePart(more));
-      out = {std::min(out.over_unknown, again.over_unknown), std::min(out.over_noise, again.over_noise)};
-    }
-    return out;
+    const double price = gains * search_->logN() + (priceOf(fit) - priceOf(without)) - (taken_more.price - taken.price);
+    return Weight{jointDeviance(profiles, &NoiseProfile::with_unknown) - with_unknown - price,
+                  jointDeviance(profiles, &NoiseProfile::noise_alone) - noise_alone - price};
   };
   // The component in which each effect is largest: those that share it are weighed together as well.
   std::vector<std::size_t> main(fit.terms.size(), 0);

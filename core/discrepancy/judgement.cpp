@@ -30,10 +30,11 @@ constexpr double remainder_evidence = 10.0;
 constexpr double unknown_price = 4.6;
 /// In 2 ln: every further effect in one component is so much less probable than one cause that nobody thought of.
 constexpr double further_price = 20.0;
+/// rms of what is held out with an effect over that without it, from which on it is taken back.
+constexpr double worse_held_out = 1.04;
 /// In evidence: what is there without doubt is told, even where its course cannot be foretold; but not where all names
-/// together make the gap on what is held out larger by so much.
+/// together make the gap on what is held out larger.
 constexpr double beyond_held_out = 200.0;
-constexpr double much_worse_held_out = 1.04;
 /// Of a course or a pattern another may leave this part of its power and is still the same to the eye of the data.
 constexpr double alike = 0.03;
 /// Rivals beside the effect; more is no answer.
@@ -545,7 +546,7 @@ Judgement judge(const ResidualProblem& problem, const EffectSearch& search, cons
   const double of_none = held_out(search.solve({}));
   while (!terms.empty()) {
     const double with = held_out(out.named);
-    const bool enlarges = with > much_worse_held_out * of_none;
+    const bool enlarges = with > worse_held_out * of_none;
     std::size_t worst = terms.size();
     double least = with / worse_held_out;
     for (std::size_t k = 0; k < terms.size(); ++k) {

@@ -42,8 +42,6 @@ struct Judgement {
   double explained_fraction = 0.0;
 };
 
-/// rms of what is held out under one answer over that under another, from which on it is given up for the other.
-inline constexpr double worse_held_out = 1.05;
 /// rms of the readings that were held out under a fit, um; NaN where there are too few.
 using HeldOutRms = std::function<double(const JointFit&)>;
 

@@ -13,7 +13,7 @@ namespace {
 using Eigen::Index;
 
 /// Standard deviation of the own noise of readings of a component, um or urad; nothing where there are none.
-std::optional<double> ownNoiseOf(const ResidualProblem& problem, const NoiseModel& noise, Component c) {
+std::optional<double> scatterOf(const ResidualProblem& problem, const NoiseModel& noise, Component c) {
   double own = 0.0;
   double count = 0.0;
   for (Index u = 0; u < problem.size(); ++u) {
@@ -30,7 +30,7 @@ template <typename Is>
 std::vector<Component> componentsWhose(const ResidualProblem& problem, const NoiseModel& noise, const Is& is) {
   std::vector<Component> out;
   for (const Component c : all_components) {
-    const std::optional<double> own = ownNoiseOf(problem, noise, c);
+    const std::optional<double> own = scatterOf(problem, noise, c);
     if (own && is(noise.of(c), *own)) out.push_back(c);
   }
   return out;
@@ -40,17 +40,22 @@ std::vector<Component> componentsWhose(const ResidualProblem& problem, const Noi
 
 Eigen::MatrixXd shiftFactor(const std::vector<double>& time_s, double drift_part, double drift_time_s) {
   const auto n = static_cast<Index>(time_s.size());
-  if (!(drift_part > 0.0) || n < 2) return Eigen::MatrixXd::Identity(n, n);
-  constexpr double rounding = 1e-9;  // states at one time
-  Eigen::MatrixXd r(n, n);
+  Eigen::MatrixXd covariance = Eigen::MatrixXd::Identity(n, n);
+  if (!(drift_part > 0.0) || n < 2) return covariance;
+  Eigen::MatrixXd drift(n, n);
   for (Index i = 0; i < n; ++i) {
     for (Index j = 0; j < n; ++j) {
       const double dt_s = std::abs(time_s[static_cast<std::size_t>(i)] - time_s[static_cast<std::size_t>(j)]);
-      r(i, j) = drift_part * std::exp(-dt_s / drift_time_s) + (i == j ? 1.0 - drift_part + rounding : 0.0);
+      drift(i, j) = std::exp(-dt_s / drift_time_s);
     }
   }
-  r *= (1.0 - 1.0 / static_cast<double>(n)) / (1.0 - r.mean());
-  return r.llt().matrixL();
+  // Independent shifts vary about the mean of n of them by 1 - 1 / n, these by less.
+  const double about_mean = (1.0 - drift.mean()) / (1.0 - 1.0 / static_cast<double>(n));
+  constexpr double rounding = 1e-9;  // states at one time
+  if (!(about_mean > rounding)) return covariance;
+  covariance *= 1.0 - drift_part + rounding;
+  covariance += drift_part / about_mean * drift;
+  return covariance.llt().matrixL();
 }
 
 double ComponentNoise::shiftsBeyond(double own) const noexcept {
@@ -63,7 +68,7 @@ NoiseModel asInstrumentsDrift(const ResidualProblem& problem, NoiseModel noise) 
   for (const Component c : all_components) {
     ComponentNoise& n = noise.of(c);
     if (!(n.drift_part > 0.0)) continue;
-    const std::optional<double> own = ownNoiseOf(problem, noise, c);
+    const std::optional<double> own = scatterOf(problem, noise, c);
     if (!own) continue;
     const double drift = std::min(n.drift_part * n.common * n.common, std::pow(largest_drift_shift * *own, 2));
     const double reference = (1.0 - n.drift_part) * n.common * n.common;

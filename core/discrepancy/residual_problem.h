@@ -4,9 +4,10 @@
 //   r = constant(series) + nuisances + X beta + shift(component, state) + e
 //   cov(e) = s_i s_j sigma_i sigma_j [(1 - a) (rho_ij + delta_ij (1 / w_i - 1)) + a exp(-|dt| / T) within a series]
 //   shift(component, state), the same for all points of a state: re-referencing, refocus, re-zeroing, an instrument
-//   that drifts; cov(shift_k, shift_l) ~ (1 - b) delta_kl + b exp(-|dt| / T_b), such that common is the standard
-//   deviation of shifts about their mean: what a drift slower than the campaign is besides shows nowhere
+//   that drifts; cov(shift_k, shift_l) = common^2 [(1 - b) delta_kl + b exp(-|dt| / T_b) / v]
 //
+// v: what exp(-|dt| / T_b) varies about its mean over the states, so that b is the part of the variance of shifts about
+// their mean that drifts, however slowly: what they have in common besides shows nowhere where constants are free.
 // s, a, T, common, b and T_b are one set for each component ((1 - a) between two: the root of both); w_i <= 1 is the
 // weight of a reading in a noise with heavy tails: what it adds is own noise. rho: correlations of what observations
 // share (SharedNoise), carried over to the units, 1 for i = j; so cov(e) is positive semidefinite whatever the
@@ -35,7 +36,7 @@ namespace spindrift {
 /// Standard deviation of the shifts of states over that of the own noise of a reading that an instrument makes at most:
 /// of shifts that follow each other in time, as it drifts, and of those that do not, as it is re-referenced, refocused
 /// or zeroed again, which nothing that heats a machine looks like. What shifts states by clearly more is no noise.
-inline constexpr double largest_drift_shift = 1.0;
+inline constexpr double largest_drift_shift = 0.8;
 inline constexpr double largest_reference_shift = 2.0;
 /// The same of any from which on an effect is looked for in its place: estimates of such shifts, and of the readings'
 /// scatter beside them, are far off while an effect is not known.
@@ -45,7 +46,7 @@ inline constexpr double doubtful_shift = 0.4;
 struct ComponentNoise {
   double scale = 1.0;               ///< own noise of a reading: actual / stated sigma
   double scale_uncertainty = 0.0;   ///< standard uncertainty of the scale
-  double common = 0.0;              ///< standard deviation of the shift of a state about their mean, um or urad
+  double common = 0.0;              ///< standard deviation of the shifts of states about their mean, um or urad
   double correlated_part = 0.0;     ///< a, 0 ... 1
   double correlation_time_s = 0.0;  ///< T
   double tail_dof = 0.0;            ///< degrees of freedom of the Student distribution of the own noise; 0: normal

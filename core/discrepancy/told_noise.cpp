@@ -54,7 +54,8 @@ void warnAboutOutliers(const ResidualProblem& problem, const Eigen::VectorXd& le
   }
 }
 
-/// What an instrument drifts by is told: it could have been looked for in the machine.
+/// What is taken for a drift of the instrument, for the machine might have moved so. More than an instrument drifts is
+/// told with what remains.
 void tellDrift(Component c, const ComponentNoise& n, std::vector<std::string>& warnings) {
   constexpr double s_per_min = 60.0;
   if (!(n.drift_part > 0.0)) return;
@@ -65,13 +66,14 @@ void tellDrift(Component c, const ComponentNoise& n, std::vector<std::string>& w
 }
 
 void tellScales(const ResidualProblem& problem, DiscrepancyResult& result) {
+  const std::vector<Component> beyond = movedTogether(problem, problem.noise);
   result.tail_dof = problem.noise.heaviestTails();
   for (const Component c : std::set<Component>(problem.component.begin(), problem.component.end())) {
     const ComponentNoise& n = problem.noise.of(c);
     const double tails = std::sqrt(n.varianceOfStudent());
     const double scale = n.scale * tails;
     result.noise.push_back({c, scale, n.scale_uncertainty * tails, n.common, n.correlated_part, n.correlation_time_s});
-    tellDrift(c, n, result.warnings);
+    if (std::find(beyond.begin(), beyond.end(), c) == beyond.end()) tellDrift(c, n, result.warnings);
     if (scale >= 0.8 && scale <= 1.25) continue;
     const int decimals = std::clamp(1 - static_cast<int>(std::floor(std::log10(scale))), 0, 9);  // two digits count
     result.warnings.push_back(fmt::format("{} scatters {:.{}f} times as much as its stated sigma; it is used as found.",

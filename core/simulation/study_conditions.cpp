@@ -105,11 +105,12 @@ class InstrumentDrift {
   [[nodiscard]] double time_s() const { return time_s_; }
   /// At times that do not decrease.
   double next(Component component, double time_s) {
-    const auto [at, first] = at_.try_emplace(component, time_s, size_ * random_.normal());
+    const double fresh = random_.normal();
+    const auto [at, first] = at_.try_emplace(component, time_s, size_ * fresh);
     auto& [last_s, value] = at->second;
-    if (first || time_s <= last_s) return value;
+    if (first) return value;
     const double kept = std::exp(-(time_s - last_s) / time_s_);
-    value = kept * value + size_ * std::sqrt(1.0 - kept * kept) * random_.normal();
+    value = kept * value + size_ * std::sqrt(1.0 - kept * kept) * fresh;
     last_s = time_s;
     return value;
   }

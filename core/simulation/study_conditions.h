@@ -47,7 +47,7 @@ struct AppliedConditions {
   std::map<Component, double> stated_over_real_sigma;
   std::vector<std::size_t> outliers;                           ///< rows of the observations, from 0
   std::map<std::pair<std::string, Component>, double> shifts;  ///< of each state (um, urad): common and drift
-  double drift_time_s = 0.0;
+  double drift_time_s = 0.0;                                   ///< correlation time; 0 without a drift
   double warm_start_s = 0.0;
   double clock_offset_s = 0.0;
   [[nodiscard]] nlohmann::json json() const;

@@ -111,6 +111,28 @@ TEST(CommonNoise, OfHalfAReadingsScatterHidesNoEffect) {
   EXPECT_EQ(result.effects.size(), made.hidden.size());
 }
 
+TEST(CommonNoise, ThatDriftsIsToldAsTheInstrumentsAndNamesNothing) {
+  // The instrument drifts by half to once the scatter of a reading: it was named as an effect in one campaign of ten.
+  int none = 0;
+  int told = 0;
+  for (std::uint64_t number = 0; number < 5; ++number) {
+    StudyOptions study;
+    study.kind = StudyKind::Nothing;
+    study.conditions.drift = true;
+    const DiscrepancyResult result = answerTo(studyCase(study, 71'500 + number));
+    EXPECT_TRUE(result.effects.empty()) << number;
+    none += result.verdict == DiscrepancyVerdict::None ? 1 : 0;
+    told += std::any_of(result.warnings.begin(), result.warnings.end(),
+                        [](const std::string& warning) {
+                          return warning.find("taken for a drift of the instrument") != std::string::npos;
+                        })
+                ? 1
+                : 0;
+  }
+  EXPECT_GE(none, 2);  // what is larger than instruments make it is told as something that remains
+  EXPECT_GE(told, 2);  // and where shifts do not clearly follow each other they are re-referencing
+}
+
 TEST(CommonNoise, IsNoCauseThatRemainsHoweverManyPointsShowIt) {
   // Re-referenced states seen by 320 points: units are means of readings, and scatter less than states are shifted. The
   // shifts were told as a cause that remains; and that an effect is the same at all points spoke against it.

@@ -253,19 +253,18 @@ TEST(ResidualProblem, WhitensWhatItIsToldOf) {
   noise.component[2].drift_part = 0.7;
   noise.component[2].drift_time_s = 4000.0;
   problem.setNoise(noise);
-  // Shifts that drift: of variance 1 about their mean.
+  // Shifts that drift: seven tenths of their variance about the mean, whatever their stationary one.
   const auto states = static_cast<Eigen::Index>(problem.epoch_time_s.size());
   Eigen::MatrixXd drift(states, states);
   for (Eigen::Index k = 0; k < states; ++k) {
     for (Eigen::Index l = 0; l < states; ++l) {
-      const double dt_s = std::abs(problem.epoch_time_s[static_cast<std::size_t>(k)] -
-                                   problem.epoch_time_s[static_cast<std::size_t>(l)]);
-      drift(k, l) = 0.7 * std::exp(-dt_s / 4000.0) + (k == l ? 0.3 : 0.0);
+      drift(k, l) = std::exp(-std::abs(problem.epoch_time_s[static_cast<std::size_t>(k)] -
+                                       problem.epoch_time_s[static_cast<std::size_t>(l)]) /
+                             4000.0);
     }
   }
-  const double about_mean =
-      (drift.trace() - drift.sum() / static_cast<double>(states)) / static_cast<double>(states - 1);
-  drift /= about_mean;
+  drift *= 0.7 / ((drift.trace() - drift.sum() / static_cast<double>(states)) / static_cast<double>(states - 1));
+  drift.diagonal().array() += 0.3;
   const Eigen::Index n = problem.size();
   Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(n, n);
   for (Eigen::Index i = 0; i < n; ++i) {

@@ -118,7 +118,7 @@ TEST(NoiseAlone, ExplainsShiftsOfStatesAndNoSlowWave) {
 TEST(NoiseAlone, ExplainsAnInstrumentThatDrifts) {
   constexpr int campaigns = 20;
   constexpr double told = 10.0;
-  constexpr double drift_um = 0.35;
+  constexpr double drift_um = 0.3;
   constexpr double drift_s = 3600.0;
   int found = 0;
   int independent_found = 0;
@@ -159,14 +159,23 @@ TEST(NoiseAlone, ADriftFarLargerThanReadingsScatterIsNoInstruments) {
   EXPECT_NEAR(n.shiftsBeyond(1.0), 4.0 - largest_drift_shift * largest_drift_shift, 1e-12);
 }
 
-TEST(NoiseAlone, ShiftsThatDriftHaveUnitVarianceAboutTheirMean) {
+TEST(NoiseAlone, ShiftsDriftByAPartOfTheirVarianceAboutTheirMean) {
+  constexpr Eigen::Index n = 30;
+  constexpr double part = 0.9;
   std::vector<double> times_s;
-  for (int k = 0; k < 30; ++k) times_s.push_back(900.0 * k + 40.0 * (k % 3));
+  for (int k = 0; k < n; ++k) times_s.push_back(900.0 * k + 40.0 * (k % 3));
+  const auto aboutMean = [](const Eigen::MatrixXd& c) { return (c.trace() - c.sum() / n) / (n - 1); };
+  // From as good as independent to far slower than the campaign.
   for (const double drift_s : {100.0, 3600.0, 1e6}) {
-    const Eigen::MatrixXd factor = shiftFactor(times_s, 0.9, drift_s);
+    const Eigen::MatrixXd factor = shiftFactor(times_s, part, drift_s);
     const Eigen::MatrixXd covariance = factor * factor.transpose();
-    EXPECT_NEAR((covariance.trace() - covariance.sum() / 30.0) / 29.0, 1.0, 1e-7) << drift_s;
-    EXPECT_GT(covariance(3, 4), covariance(3, 20)) << drift_s;
+    EXPECT_NEAR(aboutMean(covariance), 1.0, 1e-7) << drift_s;
+    EXPECT_NEAR(aboutMean(covariance - (1.0 - part) * Eigen::MatrixXd::Identity(n, n)), part, 1e-7) << drift_s;
+    EXPECT_NEAR((covariance(3, 9) - covariance(3, 20)) / (covariance(3, 4) - covariance(3, 20)),
+                (std::exp(-5400.0 / drift_s) - std::exp(-15380.0 / drift_s)) /
+                    (std::exp(-940.0 / drift_s) - std::exp(-15380.0 / drift_s)),
+                0.05)
+        << drift_s;
   }
 }
 
