@@ -18,12 +18,25 @@ double chi2At(const ResidualProblem& problem, const std::vector<Effect>& catalog
   return search.refine(terms, rounds).chi2;
 }
 
+bool noneShowsClock(const std::vector<ModelTerm>& terms, const DriverTable& drivers) {
+  return std::none_of(terms.begin(), terms.end(), [&](const ModelTerm& term) { return showsClock(term, drivers); });
+}
+
 }  // namespace
+
+bool showsClock(const ModelTerm& term, const DriverTable& drivers) {
+  return std::any_of(term.variant.inputs.begin(), term.variant.inputs.end(), [&](const EffectInput& input) {
+    const Driver* driver = drivers.find(input.driver);
+    if (driver == nullptr) return false;
+    const auto [least, most] = std::minmax_element(driver->values.begin(), driver->values.end());
+    return *most > *least;
+  });
+}
 
 std::optional<ClockOffset> estimateClockOffset(const ResidualProblem& problem, const std::vector<Effect>& catalogue,
                                                const DriverTable& drivers, const JointFit& fit, double present_s,
                                                double prior_s) {
-  if (std::none_of(fit.terms.begin(), fit.terms.end(), drivenByLog) || drivers.empty()) return std::nullopt;
+  if (noneShowsClock(fit.terms, drivers)) return std::nullopt;
   constexpr double step_s = 60.0;
   constexpr int most_steps = 10;
   std::map<int, double> values;
@@ -59,7 +72,7 @@ std::optional<ClockOffset> estimateClockOffset(const ResidualProblem& problem, c
 
 bool fitsFarBetterElsewhere(const ResidualProblem& problem, const std::vector<Effect>& catalogue,
                             const DriverTable& drivers, const JointFit& named) {
-  if (std::none_of(named.terms.begin(), named.terms.end(), drivenByLog)) return false;
+  if (noneShowsClock(named.terms, drivers)) return false;
   const double now = chi2At(problem, catalogue, drivers, named.terms, 0.0, 2);
   double best = now;
   for (int k = -far_clock_steps; k <= far_clock_steps; ++k)
@@ -67,6 +80,17 @@ bool fitsFarBetterElsewhere(const ResidualProblem& problem, const std::vector<Ef
   // In 2 ln of the likelihood, the best of so many offsets.
   constexpr double beyond_doubt = 20.0;
   return now - best > beyond_doubt;
+}
+
+double priceOfFarClock(const ResidualProblem& problem, const std::vector<Effect>& catalogue, const DriverTable& drivers,
+                       const JointFit& named) {
+  constexpr double step_s = 60.0;
+  constexpr int rounds = 2;
+  const auto at = [&](double by_s) { return chi2At(problem, catalogue, drivers, named.terms, by_s, rounds); };
+  const double curvature = at(step_s) + at(-step_s) - 2.0 * at(0.0);
+  if (!(curvature > 0.0)) return 0.0;
+  const double uncertainty_s = step_s * std::sqrt(2.0 / curvature);
+  return std::max(0.0, 2.0 * std::log(far_clock_step_s / (std::sqrt(2.0 * M_PI) * uncertainty_s)));
 }
 
 std::optional<ClockOffset> farLogClock(const std::function<double(double)>& evidence_at) {

@@ -17,8 +17,11 @@ struct ClockOffset {
   double standard_uncertainty_s = 0.0;
 };
 
-/// A parabola through -2 ln of the posterior on a grid of minutes, prior N(0, prior_s^2); nothing if no signal drives
-/// the effects, or the best offset is not worth its price. `drivers` are shifted by `present_s` already.
+/// A clock shows in it: what drives it changes within the log. Of what is on from the first row the log says no begin.
+[[nodiscard]] bool showsClock(const ModelTerm& term, const DriverTable& drivers);
+
+/// A parabola through -2 ln of the posterior on a grid of minutes, prior N(0, prior_s^2); nothing if the
+/// effects show no clock, or the best offset is not worth its price. `drivers` are shifted by `present_s` already.
 [[nodiscard]] std::optional<ClockOffset> estimateClockOffset(const ResidualProblem& problem,
                                                              const std::vector<Effect>& catalogue,
                                                              const DriverTable& drivers, const JointFit& fit,
@@ -38,5 +41,10 @@ constexpr double far_clocks = 2.0 * far_clock_steps;
 /// above can find. `evidence_at`: of all effects, with the clock moved by so many seconds. None: the present one is
 /// best. Uncertainty: the step, and the spread of the offsets that explain as much.
 [[nodiscard]] std::optional<ClockOffset> farLogClock(const std::function<double(double)>& evidence_at);
+
+/// In 2 ln: how much less all offsets within a step of that search explain on average than the present one, which is
+/// the best of them: no hypothesis states the offset to the second (Laplace's approximation).
+[[nodiscard]] double priceOfFarClock(const ResidualProblem& problem, const std::vector<Effect>& catalogue,
+                                     const DriverTable& drivers, const JointFit& named);
 
 }  // namespace spindrift

@@ -232,7 +232,7 @@ void weigh(Analysis& a, const DiscrepancyInput& input, ResidualProblem& problem,
   if (options.max_effects == 0 || input.tangents) return;
   const NoiseModel noise = problem.noise;
   const bool nothing = a.posterior.fit.terms.size() == (off == nullptr ? 0 : 1);
-  const NoiseModel own = nothing ? ownNoiseOf(start) : ownNoiseOf(noise, movedTogether(problem, noise, doubtful_shift));
+  const NoiseModel own = nothing ? ownNoiseOf(start) : ownNoiseOf(noise, doubtfulNoise(problem, noise));
   if (!differs(noise, nothing ? ownNoiseOf(noise) : own)) return;
   const double clock_offset_s = a.clock_offset_s;
   const double clock_uncertainty_s = a.clock_uncertainty_s;
@@ -444,8 +444,14 @@ std::optional<JudgedAnalysis> withFarClock(const DiscrepancyInput& input, const 
   far.log_clock_uncertainty_s = by->standard_uncertainty_s;
   // A clock that is hours off is believed for what explains all of it.
   const bool all = !far.judged.names.empty() && far.judged.leftover.empty();
-  const double worth = far.analysis->posterior.over_unknown - std::max(0.0, analysis.posterior.over_unknown);
-  if (!all || worth < 2.0 * std::log(far_clocks / priors.far_clock)) return std::nullopt;
+  const Analysis& moved = *far.analysis;
+  const auto& of_far = far.judged.named.terms;
+  const bool shown = std::any_of(of_far.begin(), of_far.end(),
+                                 [&](const ModelTerm& term) { return showsClock(term, *moved.drivers); });
+  if (!all || !shown) return std::nullopt;
+  const double worth = moved.posterior.over_unknown - std::max(0.0, analysis.posterior.over_unknown);
+  const double price = priceOfFarClock(*far.problem, moved.catalogue, *moved.drivers, far.judged.named);
+  if (worth < 2.0 * std::log(far_clocks / priors.far_clock) + price) return std::nullopt;
   return far;
 }
 

@@ -99,8 +99,10 @@ std::vector<Component> movedTogether(const ResidualProblem& problem, const Noise
   return componentsWhose(problem, noise, [](const ComponentNoise& n, double own) { return n.shiftsBeyond(own) > 0.0; });
 }
 
-std::vector<Component> movedTogether(const ResidualProblem& problem, const NoiseModel& noise, double shift) {
-  return componentsWhose(problem, noise, [&](const ComponentNoise& n, double own) { return n.common > shift * own; });
+std::vector<Component> doubtfulNoise(const ResidualProblem& problem, const NoiseModel& noise) {
+  return componentsWhose(problem, noise, [](const ComponentNoise& n, double own) {
+    return n.common * n.common + n.correlated_part * own * own > std::pow(doubtful_common * own, 2);
+  });
 }
 
 }  // namespace spindrift

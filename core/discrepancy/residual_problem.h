@@ -38,9 +38,9 @@ namespace spindrift {
 /// or zeroed again, which nothing that heats a machine looks like. What shifts states by clearly more is no noise.
 inline constexpr double largest_drift_shift = 0.8;
 inline constexpr double largest_reference_shift = 2.0;
-/// The same of any from which on an effect is looked for in its place: estimates of such shifts, and of the readings'
-/// scatter beside them, are far off while an effect is not known.
-inline constexpr double doubtful_shift = 0.4;
+/// Standard deviation of what states and neighbours in time have in common over that of the own noise of a reading from
+/// which on an effect is looked for in its place: estimates of both are far off while an effect is not known.
+inline constexpr double doubtful_common = 0.4;
 
 /// Noise of one component.
 struct ComponentNoise {
@@ -244,9 +244,8 @@ class ResidualProblem {
 
 /// Components in which `noise` shifts states by more than an instrument does.
 [[nodiscard]] std::vector<Component> movedTogether(const ResidualProblem& problem, const NoiseModel& noise);
-/// The same, by more than `shift` standard deviations of a reading.
-[[nodiscard]] std::vector<Component> movedTogether(const ResidualProblem& problem, const NoiseModel& noise,
-                                                   double shift);
+/// Those in which what states and neighbours in time have in common is more than `doubtful_common` readings' scatter.
+[[nodiscard]] std::vector<Component> doubtfulNoise(const ResidualProblem& problem, const NoiseModel& noise);
 
 /// `noise` with drifts no larger than an instrument makes them.
 [[nodiscard]] NoiseModel asInstrumentsDrift(const ResidualProblem& problem, NoiseModel noise);

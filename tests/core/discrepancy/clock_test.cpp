@@ -269,6 +269,24 @@ TEST(LogClock, FarOffIsFoundWithWhatIsMissing) {
   EXPECT_GE(right, 3);
 }
 
+TEST(LogClock, IsNotMovedForALoadThatBeginsAtAFullHour) {
+  // An instrument that is on from the first row of the log explains as much, if the log begins an hour later.
+  constexpr double lag_s = 3860.0;
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    const double onset_s = 3600.0 + 20.0 * (static_cast<double>(seed % 4) - 1.0);
+    DiscrepancyInput input = campaign(Hidden::Nothing, seed);
+    if (seed > 4) input.log->setSignal("instrument_on", std::vector<double>(input.log->time_s().size(), 1.0));
+    for (Observation& o : input.observations.rows) {
+      if (o.component == Component::EZ && o.time_s > onset_s)
+        o.value += 20.0 * (1.0 - std::exp(-(o.time_s - onset_s) / lag_s));
+    }
+    const DiscrepancyResult result = run(input);
+    EXPECT_LT(std::abs(result.clock_offset_s), 600.0) << seed << result.summary();
+    ASSERT_EQ(result.effects.size(), 1U) << seed << result.summary();
+    EXPECT_EQ(result.effects[0].id, "external_heat.z") << seed << result.summary();
+  }
+}
+
 TEST(LogClock, IsNotMovedForWhatNothingInTheLogDrives) {
   for (const Hidden hidden : {Hidden::Wave, Hidden::Slip, Hidden::Nothing}) {
     for (std::uint64_t seed = 1; seed <= 4; ++seed) {

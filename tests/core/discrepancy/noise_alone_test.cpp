@@ -159,6 +159,19 @@ TEST(NoiseAlone, ADriftFarLargerThanReadingsScatterIsNoInstruments) {
   EXPECT_NEAR(n.shiftsBeyond(1.0), 4.0 - largest_drift_shift * largest_drift_shift, 1e-12);
 }
 
+TEST(NoiseAlone, IsDoubtfulWhereReadingsHaveClearlyMoreInCommonThanNothing) {
+  ResidualProblem problem = problemOf(readings(1, {0.0, 0.0, 0.0}, 0.0, 20));
+  EXPECT_THAT(doubtfulNoise(problem, problem.noise), IsEmpty());
+  // Shifts of states and what follows itself in time, each too small to be doubted.
+  NoiseModel noise = problem.noise;
+  noise.component[0].common = 0.35 * own_um;
+  noise.component[1].correlated_part = 0.12;
+  EXPECT_THAT(doubtfulNoise(problem, noise), IsEmpty());
+  noise.component[0].correlated_part = 0.12;
+  noise.component[2].correlated_part = 0.36;
+  EXPECT_THAT(doubtfulNoise(problem, noise), ElementsAre(Component::EX, Component::EZ));
+}
+
 TEST(NoiseAlone, ShiftsDriftByAPartOfTheirVarianceAboutTheirMean) {
   constexpr Eigen::Index n = 30;
   constexpr double part = 0.9;
