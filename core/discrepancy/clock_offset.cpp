@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
 
 namespace spindrift {
 namespace {
@@ -90,7 +91,7 @@ double priceOfFarClock(const ResidualProblem& problem, const std::vector<Effect>
   const double curvature = at(step_s) + at(-step_s) - 2.0 * at(0.0);
   if (!(curvature > 0.0)) return 0.0;
   const double uncertainty_s = step_s * std::sqrt(2.0 / curvature);
-  return std::max(0.0, 2.0 * std::log(far_clock_step_s / (std::sqrt(2.0 * M_PI) * uncertainty_s)));
+  return std::max(0.0, 2.0 * std::log(far_clock_step_s / (std::sqrt(2.0 * std::numbers::pi) * uncertainty_s)));
 }
 
 std::optional<ClockOffset> farLogClock(const std::function<double(double)>& evidence_at) {

@@ -20,8 +20,8 @@ struct ClockOffset {
 /// A clock shows in it: what drives it changes within the log. Of what is on from the first row the log says no begin.
 [[nodiscard]] bool showsClock(const ModelTerm& term, const DriverTable& drivers);
 
-/// A parabola through -2 ln of the posterior on a grid of minutes, prior N(0, prior_s^2); nothing if the
-/// effects show no clock, or the best offset is not worth its price. `drivers` are shifted by `present_s` already.
+/// A parabola through -2 ln of the posterior on a grid of minutes, prior N(0, prior_s^2); nothing if the effects
+/// show no clock, or the best offset is not worth its price. `drivers` are shifted by `present_s` already.
 [[nodiscard]] std::optional<ClockOffset> estimateClockOffset(const ResidualProblem& problem,
                                                              const std::vector<Effect>& catalogue,
                                                              const DriverTable& drivers, const JointFit& fit,
@@ -43,7 +43,8 @@ constexpr double far_clocks = 2.0 * far_clock_steps;
 [[nodiscard]] std::optional<ClockOffset> farLogClock(const std::function<double(double)>& evidence_at);
 
 /// In 2 ln: how much less all offsets within a step of that search explain on average than the present one, which is
-/// the best of them: no hypothesis states the offset to the second (Laplace's approximation).
+/// the best of them: no hypothesis states the offset to the second (Laplace's approximation). Not negative; 0 where the
+/// present one is no best. `drivers` are shifted by the offset already.
 [[nodiscard]] double priceOfFarClock(const ResidualProblem& problem, const std::vector<Effect>& catalogue,
                                      const DriverTable& drivers, const JointFit& named);
 

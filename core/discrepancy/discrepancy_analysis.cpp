@@ -216,8 +216,8 @@ NoiseModel ownNoiseOf(NoiseModel noise,
 }
 
 /// Noise and effects together. The first noise is estimated before any effect is known, and what moves all points of a
-/// state alike may have gone into it: where nothing is found beside such noise, or states are shifted by more than an
-/// instrument shifts them, the search begins once more with the own noise of the readings alone. Its answer stands if
+/// state alike may have gone into it: where nothing is found beside such noise, or components have much in common in it
+/// (doubtfulNoise), the search begins once more with the own noise of the readings alone in these. Its answer stands if
 /// it is the more probable one with noise and a smooth remainder made as large as either answer needs, and leaves no
 /// such shifts: what follows a part of them alone may be anything.
 void weigh(Analysis& a, const DiscrepancyInput& input, ResidualProblem& problem, const DiscrepancyOptions& options,
