@@ -26,6 +26,10 @@ struct Driver {
   SensorRole role = SensorRole::Other;  ///< temperatures
   std::vector<double> values;           ///< at the rows of the log
   bool settled = false;                 ///< before the log it had its first value for long; false: it was zero
+  /// Standard deviation of what noise and rounding of its sensors leave in `values`, and how long that follows itself
+  /// (its correlation falls to 1/e), s.
+  double error = 0.0;
+  double error_time_s = 0.0;
 };
 
 /// On from the first row, where the log does not say when the instrument was switched on.
@@ -79,6 +83,18 @@ class DriverTable {
 [[nodiscard]] int parameterCount(const EffectVariant& variant);
 /// Their names with units: "tau_s", "tau_2_s", "onset_s", ...
 [[nodiscard]] std::vector<std::string> parameterNames(const EffectVariant& variant);
+/// The error of an input's response, from the errors of its driver (in whose unit it is): its standard deviation, and
+/// the time it follows itself, s. The lag averages it: sigma sqrt(T / (T + tau)) over T + tau, a first-order lag of an
+/// error with correlation exp(-|t| / T). `start`: of the value from which temperatures are counted; what that adds to
+/// the response changes with exp(-t / tau_s), and is a constant without a lag. 0 without a driver.
+struct ResponseError {
+  double standard_deviation = 0.0;
+  double time_s = 0.0;
+  double start = 0.0;
+  double tau_s = 0.0;
+};
+[[nodiscard]] ResponseError responseError(const DriverTable& table, const EffectVariant& variant,
+                                          std::span<const double> parameters, std::size_t input);
 /// q_i(t) of every input, one column each. `parameters` as long as parameterCount.
 [[nodiscard]] Eigen::MatrixXd inputResponses(const DriverTable& table, const EffectVariant& variant,
                                              std::span<const double> parameters, std::span<const double> times_s);

@@ -79,7 +79,7 @@ std::pair<double, double> EffectSearch::parameterBounds(const ModelTerm& term, s
   if (name.starts_with("length")) return {1.0, 11.0 * (end - start + 1.0)};
   if (term.effect->tau_s) return {(*term.effect->tau_s)[0], (*term.effect->tau_s)[1]};
   // A lag much longer than the campaign is an integrator: it fits a drift and predicts nonsense.
-  return {60.0, std::clamp(0.45 * (end - start), 3600.0, 36000.0)};
+  return {std::max(60.0, term.effect->least_lag_s), std::clamp(0.45 * (end - start), 3600.0, 36000.0)};
 }
 
 JointFit EffectSearch::refine(const std::vector<ModelTerm>& terms, int rounds) const {

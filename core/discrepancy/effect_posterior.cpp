@@ -27,6 +27,9 @@ constexpr double sweep_window = 40.0;
 constexpr double occam_window = 30.0;
 /// A set in which signs or bounds are broken is out.
 constexpr double inadmissible_price = 1e6;
+/// Errors of a driver that add less than this to chi-squared are not worth their columns, nor more columns than these.
+constexpr double least_error_power = 1.0;
+constexpr int most_error_hats = 24;
 /// What an effect must bring beyond errors of the simulation, at most: larger ones are nuisances of their own.
 constexpr double most_simulation_price = 30.0;
 
@@ -212,8 +215,6 @@ double PosteriorSearch::imitationPrice(const JointFit& fit) const {
       const double beyond = std::min(1.0, own[c] / std::max(1e-9, before[c]));
       price += beyond * std::min(most_simulation_price, simulation_power_[c]);
     }
-    const double wider = fit.terms[t].effect->refinement ? priors_.refinement_error : priors_.wider_error;
-    if (wide(*fit.terms[t].effect)) price += wider * wider * total;
   }
   return price;
 }
@@ -252,6 +253,68 @@ Eigen::MatrixXd PosteriorSearch::crosstalkColumns(const JointFit& fit) const {
   return joined(columns, problem_->size());
 }
 
+void PosteriorSearch::appendWiderErrors(const JointFit& fit, std::size_t t,
+                                        std::vector<Eigen::VectorXd>& columns) const {
+  const ModelTerm& term = fit.terms[t];
+  if (term.effect->own) return;
+  Eigen::MatrixXd own;
+  double size = 0.0;
+  for (const Effect& wider : search_->catalogue()) {
+    if (!wide(wider) || !holdsEffect(wider, term.effect->id)) continue;
+    const auto named = [&](const ModelTerm& other) { return other.effect->id == wider.id; };
+    if (std::any_of(fit.terms.begin(), fit.terms.end(), named)) continue;
+    const Eigen::MatrixXd& shape = search_->shape(wider);
+    if (own.size() == 0) {
+      const Eigen::VectorXd course = search_->course(term, fit.gains[t]);
+      if (course.size() == 0) return;
+      own = course;
+      size = problem_->projected(fit.contribution[t]).norm();
+    }
+    const double part = wider.refinement ? priors_.refinement_error : priors_.wider_error;
+    const Eigen::MatrixXd raw = own.col(0).asDiagonal() * shape;
+    Eigen::MatrixXd seen = problem_->projected(raw);
+    const Eigen::VectorXd before = seen.colwise().norm();
+    const Eigen::MatrixXd simple = problem_->projected(search_->columns(term));
+    const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(simple);
+    seen -= simple * qr.solve(seen);
+    for (Index k = 0; k < raw.cols(); ++k) {
+      const double beyond = seen.col(k).norm();
+      // What is the simple one itself, or cannot be seen.
+      if (!(beyond > 0.01 * before[k])) continue;
+      columns.emplace_back(part * size / beyond * raw.col(k));
+    }
+  }
+}
+
+void PosteriorSearch::appendSensorErrors(const JointFit& fit, std::size_t t,
+                                         std::vector<Eigen::VectorXd>& columns) const {
+  const ModelTerm& term = fit.terms[t];
+  const Eigen::MatrixXd& shape = search_->shape(*term.effect);
+  const double first = problem_->node_time_s.front();
+  const double span = std::max(1.0, problem_->node_time_s.back() - first);
+  for (std::size_t i = 0; i < term.variant.inputs.size(); ++i) {
+    const ResponseError error = responseError(search_->drivers(), term.variant, term.parameters, i);
+    if (!(error.standard_deviation > 0.0)) continue;
+    const Eigen::VectorXd pattern = shape * fit.gains[t].segment(static_cast<Index>(i) * shape.cols(), shape.cols());
+    double power = 0.0;
+    for (Index u = 0; u < pattern.size(); ++u) power += std::pow(pattern[u] / problem_->ownSigma(u), 2);
+    const auto append = [&](double sigma, const auto& course) {
+      Eigen::VectorXd column(pattern.size());
+      for (Index u = 0; u < pattern.size(); ++u)
+        column[u] = sigma * pattern[u] * course(problem_->time_s[static_cast<std::size_t>(u)] - first);
+      columns.push_back(std::move(column));
+    };
+    if (power * error.start * error.start >= least_error_power)
+      append(error.start, [&](double t_s) { return std::exp(-std::max(0.0, t_s) / error.tau_s); });
+    if (power * std::pow(error.standard_deviation, 2) < least_error_power) continue;
+    const int most = std::clamp(problem_->epoch_count, 2, most_error_hats);
+    const int count = std::clamp(static_cast<int>(span / std::max(1.0, error.time_s)) + 1, 2, most);
+    for (int h = 0; h < count; ++h)
+      append(error.standard_deviation,
+             [&](double t_s) { return std::max(0.0, 1.0 - std::abs(t_s / span * (count - 1) - h)); });
+  }
+}
+
 Eigen::MatrixXd PosteriorSearch::modelErrorColumns(const JointFit& fit) const {
   std::vector<Eigen::VectorXd> columns;
   const double start = problem_->node_time_s.front();
@@ -274,6 +337,8 @@ Eigen::MatrixXd PosteriorSearch::modelErrorColumns(const JointFit& fit) const {
     for (Eigen::VectorXd& column : sizes) {
       if (column.size() > 0) columns.push_back(std::move(column));
     }
+    appendWiderErrors(fit, t, columns);
+    appendSensorErrors(fit, t, columns);
     // Another size in every span of time.
     const EffectInput& first = fit.terms[t].variant.inputs[0];
     if (first.driver.empty() && first.dynamics != Dynamics::Pulse && !fit.terms[t].effect->over_time) continue;

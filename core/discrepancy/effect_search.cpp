@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+
+#include "core/math/statistics.h"
 
 namespace spindrift {
 
@@ -25,15 +28,16 @@ EffectSearch::EffectSearch(const ResidualProblem& problem, const DriverTable& dr
 }
 
 std::vector<double> EffectSearch::within(const Effect& effect, const std::vector<double>& lags) {
-  if (!effect.tau_s) return lags;
-  const auto [low, high] = *effect.tau_s;
+  const double low = effect.tau_s ? (*effect.tau_s)[0] : effect.least_lag_s;
+  if (!effect.tau_s && low <= 0.0) return lags;
+  const double high = effect.tau_s ? (*effect.tau_s)[1] : std::numeric_limits<double>::infinity();
   std::vector<double> out;
   if (low > 0.0) out.push_back(low);
   // A lag next to a bound says nothing that the bound does not.
   for (const double tau : lags) {
     if (tau > 1.2 * low && tau < high / 1.2) out.push_back(tau);
   }
-  out.push_back(high);
+  if (effect.tau_s) out.push_back(high);
   return out;
 }
 
@@ -150,6 +154,14 @@ bool EffectSearch::admissible(const ModelTerm& term, const Eigen::VectorXd& gain
       const double most = effect.largest_ratio[c];
       if (most > 0.0 && std::abs(own[static_cast<Index>(c)]) > most * std::abs(own[0])) return false;
     }
+  }
+  // What one state alone shows is no load but a state that went wrong.
+  const Dynamics first = inputs[0].dynamics;
+  if (first == Dynamics::Pulse && inputs.size() == 1 && problem_->epoch_time_s.size() >= 6) {
+    const Eigen::VectorXd q = inputResponses(*drivers_, term.variant, term.parameters, problem_->epoch_time_s).col(0);
+    const Eigen::ArrayXd moved = (q.array() - median(std::vector<double>(q.begin(), q.end()))).square();
+    constexpr double most_in_one = 0.8;
+    if (moved.maxCoeff() > most_in_one * moved.sum()) return false;
   }
   // Two lags of one driver add up; they do not cancel.
   if (driven == 2 && inputs[0].driver == inputs[1].driver && inputs[0].dynamics == Dynamics::Lag) {

@@ -71,6 +71,7 @@ struct Effect {
   /// |gain of shape column k| <= largest_ratio[k] x |gain of column 0|, 0: free. Empty: all free.
   std::vector<double> largest_ratio;
   std::optional<std::array<double, 2>> tau_s;  ///< bounds of its lags; empty: as the observations allow
+  double least_lag_s = 0.0;                    ///< what takes up heat needs so long; 0: it may follow at once
   bool own = false;                            ///< comes from a file of the user's
   bool two_lags = false;                       ///< its heat may reach it through two lags
   bool refinement = false;                     ///< refines another effect of the same cause (ball_screw.nonuniform)

@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 #include "core/base/error.h"
+#include "core/base/random.h"
 #include "core/math/statistics.h"
 
 namespace spindrift {
@@ -75,7 +77,8 @@ Eigen::VectorXd smoothed(const FiveDiagonals& form, double weight, const Eigen::
 bool isNoise(const Eigen::VectorXd& taken, double noise, Index stretch) {
   const auto n = taken.size();
   const double variance = noise * noise;
-  if (taken.squaredNorm() > variance * static_cast<double>(n)) return false;
+  const auto all = static_cast<double>(n);
+  if (taken.squaredNorm() > variance * (all + 3.0 * std::sqrt(2.0 * all))) return false;
   const auto count = static_cast<double>(std::min(stretch, n));
   const double most = variance * (count + 5.0 * std::sqrt(2.0 * count));
   double sum = 0.0;
@@ -87,22 +90,94 @@ bool isNoise(const Eigen::VectorXd& taken, double noise, Index stretch) {
   return true;
 }
 
-}  // namespace
-
-double noiseOfReadings(std::span<const double> readings) {
-  if (readings.size() < 8) return 0.0;
-  std::vector<double> third;
+/// The smallest step between neighbours; 0 where none differ.
+double resolutionOf(std::span<const double> readings) {
   double resolution = 0.0;
   for (std::size_t i = 0; i + 1 < readings.size(); ++i) {
     const double difference = std::abs(readings[i + 1] - readings[i]);
     if (difference > 1e-9 && (resolution == 0.0 || difference < resolution)) resolution = difference;
-    if (i + 3 < readings.size()) {
-      third.push_back(std::abs(readings[i + 3] - 3.0 * readings[i + 2] + 3.0 * readings[i + 1] - readings[i]));
-    }
   }
-  // Of readings that mostly stand still the differences are zero: they scatter less than they are rounded.
-  const double scatter = 1.4826 * median(third) / std::sqrt(20.0);
-  return scatter > 1e-9 ? scatter : resolution / std::sqrt(12.0);
+  return resolution;
+}
+
+/// Time over which the correlation of `errors` (about zero) falls to 1/e, in steps.
+double correlationSteps(const Eigen::VectorXd& errors) {
+  const double power = errors.squaredNorm();
+  const Index n = errors.size();
+  const double least = std::exp(-1.0);
+  double before = 1.0;
+  for (Index lag = 1, last = 0; lag < n / 2; last = lag, lag = std::max(lag + 1, lag * 5 / 4)) {
+    const double here = errors.head(n - lag).dot(errors.tail(n - lag)) / power;
+    if (here < least)
+      return static_cast<double>(last) + static_cast<double>(lag - last) * (before - least) / (before - here);
+    before = here;
+  }
+  return 0.5 * static_cast<double>(n);
+}
+
+/// The error of what is smooth: of copies of it with the same noise, rounded and smoothed in the same way. Of long
+/// signals a part in the middle stands for all.
+void findError(std::span<const double> time_s, std::span<const double> readings, SmoothedSignal& signal, double step) {
+  constexpr std::size_t most_rows = 8192;
+  const std::size_t rows = std::min(most_rows, readings.size());
+  const std::size_t first = (readings.size() - rows) / 2;
+  const FiveDiagonals form = roughness(time_s.subspan(first, rows), step);
+  const auto n = static_cast<Index>(rows);
+  const Eigen::VectorXd smooth = Eigen::Map<const Eigen::VectorXd>(signal.values.data() + first, n);
+  const double resolution = resolutionOf(readings);
+  const double white = std::sqrt(std::max(0.0, signal.noise * signal.noise - resolution * resolution / 12.0));
+  const double weight = std::pow(signal.bandwidth_s / step, 4);
+  constexpr int copies = 4;
+  double power = 0.0;
+  double steps_alike = 0.0;
+  FiveDiagonals lower;
+  Random random(0x5eed);
+  for (int copy = 0; copy < copies; ++copy) {
+    // The steps of the copies lie elsewhere: the smooth signal has found a way along those of the readings.
+    const double phase = (static_cast<double>(copy) + random.uniform()) / copies * resolution;
+    Eigen::VectorXd read(n);
+    for (Index i = 0; i < n; ++i) {
+      const double value = smooth[i] + white * random.normal();
+      read[i] = resolution > 0.0 ? std::round((value - phase) / resolution) * resolution + phase : value;
+    }
+    const Eigen::VectorXd errors = (weight > 0.0 ? smoothed(form, weight, read, lower) : read) - smooth;
+    if (!errors.allFinite() || !(errors.squaredNorm() > 0.0)) continue;
+    power += errors.squaredNorm() / static_cast<double>(n * copies);
+    steps_alike += correlationSteps(errors) / copies;
+  }
+  signal.error = std::sqrt(power);
+  signal.error_time_s = steps_alike * step;
+}
+
+}  // namespace
+
+double noiseOfReadings(std::span<const double> readings) {
+  if (readings.size() < 8) return 0.0;
+  const std::size_t n = readings.size();
+  std::vector<double> third;
+  for (std::size_t i = 0; i + 3 < n; ++i)
+    third.push_back(std::abs(readings[i + 3] - 3.0 * readings[i + 2] + 3.0 * readings[i + 1] - readings[i]));
+  const double middle = median(third);
+  const double resolution = resolutionOf(readings);
+  if (middle > 2.0 * resolution) return 1.4826 * middle / std::sqrt(20.0);
+  if (middle > 0.5 * resolution) {
+    // A few multiples of the resolution: their mean, without the farthest, is finer than their median.
+    double sum = 0.0;
+    for (const double difference : third) sum += std::min(difference, 5.0 * middle);
+    return sum / static_cast<double>(third.size()) * std::sqrt(std::numbers::pi / 2.0) / std::sqrt(20.0);
+  }
+  // Rounded so coarsely that most neighbours are the same. They differ, in the mean, by as much as before they were
+  // rounded; what of that leads anywhere over two dozen readings is the signal's.
+  const std::size_t far = std::min<std::size_t>(24, n / 2);
+  double near = 0.0;
+  for (std::size_t i = 0; i + 1 < n; ++i)
+    near += std::min(4.0 * resolution, std::abs(readings[i + 1] - readings[i])) / static_cast<double>(n - 1);
+  double led = 0.0;
+  for (std::size_t i = 0; i + far < n; ++i)
+    led += std::abs(readings[i + far] - readings[i]) / static_cast<double>(far * (n - far));
+  const double apart = std::max(0.0, near - led) / (1.0 - 1.0 / static_cast<double>(far));
+  const double white = apart * std::sqrt(std::numbers::pi) / 2.0;
+  return std::hypot(white, resolution / std::sqrt(12.0));
 }
 
 SmoothedSignal smoothWithinNoise(std::span<const double> time_s, std::span<const double> readings,
@@ -130,6 +205,7 @@ SmoothedSignal smoothWithinNoise(std::span<const double> time_s, std::span<const
     out.bandwidth_s = h * step;
     break;
   }
+  findError(time_s, readings, out, step);
   return out;
 }
 

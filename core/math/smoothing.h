@@ -10,8 +10,10 @@ namespace spindrift {
 /// A signal freed of the noise of its readings.
 struct SmoothedSignal {
   std::vector<double> values;
-  double noise = 0.0;        ///< standard deviation of the readings about the signal, in their unit
-  double bandwidth_s = 0.0;  ///< what is much shorter is taken for noise; 0: the readings as they are
+  double noise = 0.0;         ///< standard deviation of the readings about the signal, in their unit
+  double bandwidth_s = 0.0;   ///< what is much shorter is taken for noise; 0: the readings as they are
+  double error = 0.0;         ///< standard deviation of what noise and rounding leave in `values`, in their unit
+  double error_time_s = 0.0;  ///< over which that error follows itself: its correlation falls to 1/e
 };
 
 /// Standard deviation of white noise on a signal that is smooth over four readings, in their unit, from the median of
@@ -25,7 +27,9 @@ struct SmoothedSignal {
 /// jumps, less is taken away. Times increase, s; a gap in them is bridged smoothly. Times that do not increase, or
 /// readings without noise, come back as they are. Where the signal is smooth the error is noise / sqrt(3.8 bandwidth /
 /// step), the variance of the equivalent kernel (Silverman 1984).
-/// Sources: Whittaker 1923; Reinsch 1967 (as smooth as the noise allows).
+/// That error, and how long it follows itself, is found by a parametric bootstrap: noise on the smooth signal, rounded
+/// to the readings' resolution, and smoothed again. Of slow signals rounded coarsely it is no white noise.
+/// Sources: Whittaker 1923; Reinsch 1967 (as smooth as the noise allows); Efron 1979 (bootstrap).
 [[nodiscard]] SmoothedSignal smoothWithinNoise(std::span<const double> time_s, std::span<const double> readings,
                                                double most_bandwidth_s);
 

@@ -28,6 +28,8 @@ void external_heat(const CatalogueContext& context, std::vector<Effect>& out) {
       addBendingShape(*context.machine, kind, effect);
     }
     effect.variants.push_back({{{"", Dynamics::Pulse}}, false});
+    // Castings take minutes to take up heat through their surface: what jumps is no heat.
+    effect.least_lag_s = 180.0;
     out.push_back(std::move(effect));
   }
 }
