@@ -405,6 +405,7 @@ JudgedAnalysis withClock(const DiscrepancyInput& input, const DiscrepancyOptions
   out.warnings.insert(out.warnings.end(), analysis.notes.begin(), analysis.notes.end());
   out.judged = judge(*out.problem, *analysis.search, analysis.posterior, analysis.remainder, priors, out.options,
                      [&](const JointFit& fit) { return heldOutRms(input, out.rows, *out.problem, analysis, fit); });
+  if (out.judged.noise) out.problem->setNoise(*out.judged.noise);
   out.warnings.insert(out.warnings.end(), out.judged.warnings.begin(), out.judged.warnings.end());
   return out;
 }

@@ -77,7 +77,9 @@ Eigen::MatrixXd joined(const std::vector<Eigen::VectorXd>& columns, Index rows) 
 /// N(0, 1) of the columns of `m` (whitened), of the first `always` in any case, of every further one with probability
 /// p.
 double formulaErrorGain(const Eigen::MatrixXd& m, Index always, const Eigen::VectorXd& left, double p) {
-  const Eigen::MatrixXd gram = m.transpose() * m;
+  Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(m.cols(), m.cols());
+  gram.selfadjointView<Eigen::Lower>().rankUpdate(m.transpose());
+  gram.triangularView<Eigen::StrictlyUpper>() = gram.transpose();
   const Eigen::VectorXd moved = m.transpose() * left;
   const auto gainOf = [&](const std::vector<Index>& ways) {
     Eigen::MatrixXd a = gram(ways, ways);

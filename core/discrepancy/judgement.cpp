@@ -208,12 +208,23 @@ bool hasPatternOf(const ResidualProblem& problem, const EffectSearch& search, co
   return left < alike * whole;
 }
 
-/// True if noise alone explains what the named effects leave: nothing smooth, and no larger shifts than there are.
-bool noiseExplains(const ResidualProblem& problem, const JointFit& fit, const JointFit& named) {
+/// Noise that alone explains what the named effects leave: nothing smooth, and no larger shifts than there are.
+std::optional<NoiseModel> explainingNoise(const ResidualProblem& problem, const JointFit& fit, const JointFit& named) {
   Eigen::VectorXd left = problem.without(named.contribution);
   left -= problem.nuisancePart(left).values;
-  return smoothBesideNoise(problem, fit, named) < remainder_evidence &&
-         movedTogether(problem, estimateNoise(problem, left, true)).empty();
+  NoiseModel noise = estimateNoise(problem, left, true);
+  if (!movedTogether(problem, noise).empty()) return std::nullopt;
+  double smooth = 0.0;
+  if (driftsOfAll(noise) == driftsOfAll(problem.noise)) {
+    smooth = smoothBesideNoise(problem, fit, named);
+  } else {
+    // Beside the effect not all axes drifted.
+    ResidualProblem without = problem;
+    without.setNoise(noise);
+    smooth = smoothBesideNoise(without, fit, named);
+  }
+  if (smooth >= remainder_evidence) return std::nullopt;
+  return noise;
 }
 
 /// Mean of what is left over the points of each state in one component; and the period of the sine that explains most
@@ -266,14 +277,15 @@ bool sameCause(const Effect& effect, const std::string& id) {
   return std::find(effect.same_cause.begin(), effect.same_cause.end(), id) != effect.same_cause.end();
 }
 
-std::string describedRemainder(const ResidualProblem& problem, const JointFit& fit, const Remainder& remainder) {
+std::string describedRemainder(const ResidualProblem& problem, const NoiseModel& noise, const JointFit& fit,
+                               const Remainder& remainder) {
   std::vector<std::string> parts;
-  const std::vector<Component> together = movedTogether(problem, problem.noise);
+  const std::vector<Component> together = movedTogether(problem, noise);
   for (const Component c : together) {
     const auto period = commonPeriod(problem, fit, c);
     parts.push_back(fmt::format("{} of all points has a common time history{}, {:.2f} {} rms", toString(c),
                                 period ? fmt::format(" with a period of about {:.0f} s", *period) : "",
-                                problem.noise.of(c).common, printedUnit(unitOf(c))));
+                                noise.of(c).common, printedUnit(unitOf(c))));
   }
   for (const Remainder::OfComponent& r : remainder.components) {
     if (r.evidence < remainder_evidence || std::find(together.begin(), together.end(), r.component) != together.end())
@@ -567,8 +579,17 @@ Judgement judge(const ResidualProblem& problem, const EffectSearch& search, cons
                                 with, least));
   }
   ambiguous = std::any_of(out.names.begin(), out.names.end(), [](const NamedEffect& n) { return !n.rivals.empty(); });
-  if (!unnamed.empty() && noiseExplains(problem, fit, out.named)) unnamed.clear();
-  std::string left = describedRemainder(problem, fit, remainder);
+  std::string left = describedRemainder(problem, problem.noise, fit, remainder);
+  if (!unnamed.empty()) {
+    std::optional<NoiseModel> noise = explainingNoise(problem, fit, out.named);
+    if (noise) {
+      unnamed.clear();
+      if (out.names.empty()) {
+        left = describedRemainder(problem, *noise, out.named, remainder);
+        out.noise = std::move(noise);
+      }
+    }
+  }
   if (left.empty() && unnamed.empty() && out.names.empty()) left = patternInScatter(problem, fit);
   if (!unnamed.empty()) {
     out.leftover = fmt::format("what {} would explain, but cannot be named{}", joinedList(unnamed),

@@ -40,6 +40,8 @@ struct Judgement {
   std::vector<DiscrepancyStep> steps;
   std::vector<std::string> warnings;
   double explained_fraction = 0.0;
+  /// Where nothing is named because noise alone explains what an effect was found for: that noise.
+  std::optional<NoiseModel> noise;
 };
 
 /// rms of the readings that were held out under a fit, um; NaN where there are too few.

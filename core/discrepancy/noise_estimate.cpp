@@ -62,7 +62,8 @@ struct ComponentData {
   std::vector<double> state_time_s;
   double drift_part = 0.0;  // of `shifts`
   double drift_time_s = 0.0;
-  Eigen::MatrixXd smooth;  // patterns in space times hats in time, each of mean square 1 where it is not zero
+  double drift_gain = 0.0;  // 2 ln of the likelihood of a drift over that of independent shifts, without its price
+  Eigen::MatrixXd smooth;   // patterns in space times hats in time, each of mean square 1 where it is not zero
   double mean_sigma = 1.0;
   double reading_sigma = 1.0;      // of single readings: units may be the means of many
   double least_scale = 1e-4;       // own noise over what is stated: no instrument resolves less of what moves
@@ -467,6 +468,7 @@ void setDrift(const ResidualProblem& problem, ComponentData& data, double part, 
 double findDrift(const ResidualProblem& problem, ComponentData& data, const Products& independent, double step_s,
                  Parameters& p, double best) {
   constexpr Index fewest_states = 8;
+  data.drift_gain = 0.0;
   if (!(p.shift > 0.0) || data.shifts.cols() < fewest_states || !(step_s > 0.0)) return best;
   struct Found {
     double deviance = 1e300;
@@ -487,14 +489,16 @@ double findDrift(const ResidualProblem& problem, ComponentData& data, const Prod
     alone.shift *= 2.0;
     if (data.smooth.cols() > 0) consider(0.9, steps * step_s, alone, 3);
   }
-  if (found.deviance > best + drift_price) return best;
+  data.drift_gain = best - found.deviance;
+  if (data.drift_gain < -drift_price) return best;
   for (int round = 0; round < 2; ++round) {
     const Found at = found;
     for (const double part : {0.6 * at.part, 1.0 - 0.3 * (1.0 - at.part)}) consider(part, at.time_s, at.p, 2);
     const Found then = found;
     for (const double factor : {0.55, 1.8}) consider(then.part, factor * then.time_s, then.p, 2);
   }
-  if (found.deviance > best - drift_price) return best;
+  data.drift_gain = best - found.deviance;
+  if (data.drift_gain < drift_price) return best;
   setDrift(problem, data, found.part, found.time_s);
   p = found.p;
   return found.deviance;
@@ -763,6 +767,21 @@ NoiseModel estimateNoise(const ResidualProblem& problem, const Eigen::VectorXd& 
     }
   }
   if (!any_weight) out.weight.resize(0);
+  // Three components whose states are all shifted and rather drift, each of them, than not: together that is clear.
+  constexpr double clear = 0.35;
+  for (const std::size_t from : {0, 3}) {
+    int drifting = 0;
+    double gain = 0.0;
+    for (std::size_t c = from; c < from + 3; ++c) {
+      const ComponentNoise& n = out.component[c];
+      const bool shifted = n.common > clear * n.scale * estimates[c].data.reading_sigma;
+      if (!estimates[c].present || !shifted || !(estimates[c].data.drift_gain > 0.0)) continue;
+      ++drifting;
+      gain += estimates[c].data.drift_gain;
+    }
+    if (drifting < 3 || gain < 2.0 * drift_price) continue;
+    for (std::size_t c = from; c < from + 3; ++c) out.component[c].largest_drift = largest_drift_of_all;
+  }
   return out;
 }
 
@@ -800,6 +819,7 @@ NoiseProfiles noiseProfiles(const ResidualProblem& problem, const Eigen::VectorX
     e.data.hats.resize(readings, 0);
     const double own_um = std::exp(e.p.log_scale) * e.data.reading_sigma;
     ComponentNoise shifted;
+    shifted.largest_drift = n.largest_drift;
     out[c].noise_alone = profile(e, &shifted);
     for (std::size_t i = 0; i + 1 < out[c].noise_alone.size(); ++i) {
       shifted.common = sizes[i];

@@ -59,9 +59,14 @@ Eigen::MatrixXd shiftFactor(const std::vector<double>& time_s, double drift_part
 }
 
 double ComponentNoise::shiftsBeyond(double own) const noexcept {
-  const double drift = drift_part * common * common - std::pow(largest_drift_shift * own, 2);
+  const double drift = drift_part * common * common - std::pow(largest_drift * own, 2);
   const double reference = (1.0 - drift_part) * common * common - std::pow(largest_reference_shift * own, 2);
   return std::max(0.0, drift) + std::max(0.0, reference);
+}
+
+bool driftsOfAll(const NoiseModel& noise) {
+  return std::any_of(noise.component.begin(), noise.component.end(),
+                     [](const ComponentNoise& n) { return n.largest_drift > largest_drift_shift; });
 }
 
 NoiseModel asInstrumentsDrift(const ResidualProblem& problem, NoiseModel noise) {
@@ -70,7 +75,7 @@ NoiseModel asInstrumentsDrift(const ResidualProblem& problem, NoiseModel noise) 
     if (!(n.drift_part > 0.0)) continue;
     const std::optional<double> own = scatterOf(problem, noise, c);
     if (!own) continue;
-    const double drift = std::min(n.drift_part * n.common * n.common, std::pow(largest_drift_shift * *own, 2));
+    const double drift = std::min(n.drift_part * n.common * n.common, std::pow(n.largest_drift * *own, 2));
     const double reference = (1.0 - n.drift_part) * n.common * n.common;
     n.common = std::sqrt(drift + reference);
     n.drift_part = n.common > 0.0 ? drift / (n.common * n.common) : 0.0;

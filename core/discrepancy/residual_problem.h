@@ -36,7 +36,9 @@ namespace spindrift {
 /// Standard deviation of the shifts of states over that of the own noise of a reading that an instrument makes at most:
 /// of shifts that follow each other in time, as it drifts, and of those that do not, as it is re-referenced, refocused
 /// or zeroed again, which nothing that heats a machine looks like. What shifts states by clearly more is no noise.
+/// Where all three axes drift it is the instrument's more surely, for no effect does that, and the limit is wider.
 inline constexpr double largest_drift_shift = 0.8;
+inline constexpr double largest_drift_of_all = 1.4;
 inline constexpr double largest_reference_shift = 2.0;
 /// Standard deviation of what states and neighbours in time have in common over that of the own noise of a reading from
 /// which on an effect is looked for in its place: estimates of both are far off while an effect is not known.
@@ -52,6 +54,7 @@ struct ComponentNoise {
   double tail_dof = 0.0;            ///< degrees of freedom of the Student distribution of the own noise; 0: normal
   double drift_part = 0.0;          ///< b, 0 ... 1: of the variance of shifts, what follows itself in time
   double drift_time_s = 0.0;        ///< T_b
+  double largest_drift = largest_drift_shift;  ///< what an instrument drifts by at most, over the own noise
 
   /// Variance of the shifts of states beyond what an instrument makes whose readings scatter by `own` (standard
   /// deviation, um or urad).
@@ -247,6 +250,8 @@ class ResidualProblem {
 /// Those in which what states and neighbours in time have in common is more than `doubtful_common` readings' scatter.
 [[nodiscard]] std::vector<Component> doubtfulNoise(const ResidualProblem& problem, const NoiseModel& noise);
 
+/// True if all axes drift, so that larger drifts are the instrument's (largest_drift_of_all).
+[[nodiscard]] bool driftsOfAll(const NoiseModel& noise);
 /// `noise` with drifts no larger than an instrument makes them.
 [[nodiscard]] NoiseModel asInstrumentsDrift(const ResidualProblem& problem, NoiseModel noise);
 

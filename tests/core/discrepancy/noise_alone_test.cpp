@@ -145,6 +145,33 @@ TEST(NoiseAlone, ExplainsAnInstrumentThatDrifts) {
   EXPECT_LE(independent_found, 3);
 }
 
+TEST(NoiseAlone, AsMuchAsReadingsScatterIsADriftWhereAllAxesDrift) {
+  constexpr int campaigns = 20;
+  constexpr double told = 10.0;
+  constexpr double drift_um = 0.9 * own_um;
+  int all_told = 0;
+  int one_told = 0;
+  for (int i = 0; i < campaigns; ++i) {
+    const auto seed = 2300 + static_cast<std::uint64_t>(i);
+    const DiscrepancyInput still = readings(seed, {0.0, 0.0, 0.0}, 0.0, 20, 48);
+    const DiscrepancyInput all = drifting(still, seed, drift_um, 3000.0);
+    DiscrepancyInput one = still;
+    for (std::size_t r = 0; r < one.observations.rows.size(); ++r) {
+      if (one.observations.rows[r].component == Component::EX)
+        one.observations.rows[r].value = all.observations.rows[r].value;
+    }
+    const auto doubted = [&](const DiscrepancyInput& in) {
+      const ResidualProblem problem = problemOf(in);
+      return !movedTogether(problem, problem.noise).empty() ||
+             smoothOdds(noiseProfiles(problem, problem.y, translations)) >= told;
+    };
+    all_told += doubted(all) ? 1 : 0;
+    one_told += doubted(one) ? 1 : 0;
+  }
+  EXPECT_LE(all_told, 4);
+  EXPECT_GE(one_told, 8);
+}
+
 TEST(NoiseAlone, ADriftFarLargerThanReadingsScatterIsNoInstruments) {
   for (const std::uint64_t seed : {1U, 2U, 3U, 4U}) {
     const ResidualProblem problem =
