@@ -217,6 +217,8 @@ double PosteriorSearch::imitationPrice(const JointFit& fit) const {
       const double beyond = std::min(1.0, own[c] / std::max(1e-9, before[c]));
       price += beyond * std::min(most_simulation_price, simulation_power_[c]);
     }
+    const double wider = fit.terms[t].effect->refinement ? priors_.refinement_error : priors_.wider_error;
+    if (wide(*fit.terms[t].effect)) price += wider * wider * total;
   }
   return price;
 }
@@ -253,39 +255,6 @@ Eigen::MatrixXd PosteriorSearch::crosstalkColumns(const JointFit& fit) const {
     }
   }
   return joined(columns, problem_->size());
-}
-
-void PosteriorSearch::appendWiderErrors(const JointFit& fit, std::size_t t,
-                                        std::vector<Eigen::VectorXd>& columns) const {
-  const ModelTerm& term = fit.terms[t];
-  if (term.effect->own) return;
-  Eigen::MatrixXd own;
-  double size = 0.0;
-  for (const Effect& wider : search_->catalogue()) {
-    if (!wide(wider) || !holdsEffect(wider, term.effect->id)) continue;
-    const auto named = [&](const ModelTerm& other) { return other.effect->id == wider.id; };
-    if (std::any_of(fit.terms.begin(), fit.terms.end(), named)) continue;
-    const Eigen::MatrixXd& shape = search_->shape(wider);
-    if (own.size() == 0) {
-      const Eigen::VectorXd course = search_->course(term, fit.gains[t]);
-      if (course.size() == 0) return;
-      own = course;
-      size = problem_->projected(fit.contribution[t]).norm();
-    }
-    const double part = wider.refinement ? priors_.refinement_error : priors_.wider_error;
-    const Eigen::MatrixXd raw = own.col(0).asDiagonal() * shape;
-    Eigen::MatrixXd seen = problem_->projected(raw);
-    const Eigen::VectorXd before = seen.colwise().norm();
-    const Eigen::MatrixXd simple = problem_->projected(search_->columns(term));
-    const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(simple);
-    seen -= simple * qr.solve(seen);
-    for (Index k = 0; k < raw.cols(); ++k) {
-      const double beyond = seen.col(k).norm();
-      // What is the simple one itself, or cannot be seen.
-      if (!(beyond > 0.01 * before[k])) continue;
-      columns.emplace_back(part * size / beyond * raw.col(k));
-    }
-  }
 }
 
 void PosteriorSearch::appendSensorErrors(const JointFit& fit, std::size_t t,
@@ -339,7 +308,6 @@ Eigen::MatrixXd PosteriorSearch::modelErrorColumns(const JointFit& fit) const {
     for (Eigen::VectorXd& column : sizes) {
       if (column.size() > 0) columns.push_back(std::move(column));
     }
-    appendWiderErrors(fit, t, columns);
     appendSensorErrors(fit, t, columns);
     // Another size in every span of time.
     const EffectInput& first = fit.terms[t].variant.inputs[0];

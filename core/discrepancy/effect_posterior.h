@@ -58,12 +58,11 @@ struct DiscrepancyPriors {
   /// Evidence (2 ln of the odds) by which an effect that holds a simpler one must be the more probable one: up to odds
   /// of 3 the data do not tell the two apart, and the simpler one is named (EFFECTS.md).
   double wider_lead = 2.2;
-  /// Odds of an effect that holds a simpler one as a special case, beside that one; and the standard deviation of what
-  /// the simpler one may be off in just the way that the wider one can follow, as a part of its amplitude. That is an
-  /// error of the simple one's formula, and no price of the wider one: beside any other effect it pays nothing.
+  /// Odds of an effect that holds a simpler one as a special case, beside that one; and the part of its amplitude by
+  /// which the simpler one may be off in just the way that the wider one can follow.
   double wider = 0.1;
-  double wider_error = 0.03;
-  double refinement_error = 0.07;  ///< the same of a refinement (a screw that is warmer in one place)
+  double wider_error = 0.06;
+  double refinement_error = 0.14;  ///< the same of a refinement (a screw that is warmer in one place)
   /// The same of two effects: part of the amplitude of the others, where and when it acts, that a further effect may
   /// imitate, so that one smaller than this needs more; of one that chooses its own onset.
   double further_error = 0.07;
@@ -180,9 +179,6 @@ class PosteriorSearch {
   [[nodiscard]] double priceOf(const JointFit& fit) const;
   /// What others may be off by, in just the way that each effect follows: chi-squared that it must bring beyond.
   [[nodiscard]] double imitationPrice(const JointFit& fit) const;
-  /// How a term may be off in just the way that effects can follow which hold it as a special case: their patterns in
-  /// its course, beyond its own.
-  void appendWiderErrors(const JointFit& fit, std::size_t t, std::vector<Eigen::VectorXd>& columns) const;
   /// What noise and steps of the sensors that drive a term leave in its course, a column for each time that this
   /// follows itself.
   void appendSensorErrors(const JointFit& fit, std::size_t t, std::vector<Eigen::VectorXd>& columns) const;
