@@ -73,12 +73,13 @@ Eigen::VectorXd smoothed(const FiveDiagonals& form, double weight, const Eigen::
   return x;
 }
 
-/// What is taken away is noise: in all, and over every stretch of `stretch` readings, but for chance.
-bool isNoise(const Eigen::VectorXd& taken, double noise, Index stretch) {
+/// What is taken away is noise: in all, up to `allowed` standard deviations of its sum of squares, and over every
+/// stretch of `stretch` readings, but for chance.
+bool isNoise(const Eigen::VectorXd& taken, double noise, double allowed, Index stretch) {
   const auto n = taken.size();
   const double variance = noise * noise;
   const auto all = static_cast<double>(n);
-  if (taken.squaredNorm() > variance * (all + 3.0 * std::sqrt(2.0 * all))) return false;
+  if (taken.squaredNorm() > variance * (all + allowed * std::sqrt(2.0 * all))) return false;
   const auto count = static_cast<double>(std::min(stretch, n));
   const double most = variance * (count + 5.0 * std::sqrt(2.0 * count));
   double sum = 0.0;
@@ -198,9 +199,11 @@ SmoothedSignal smoothWithinNoise(std::span<const double> time_s, std::span<const
   const Eigen::VectorXd y = Eigen::Map<const Eigen::VectorXd>(readings.data(), n);
   FiveDiagonals lower;
   constexpr Index stretch = 24;
+  // The noise of coarsely rounded readings is not known well enough to stop the smoother at a hair's breadth.
+  const double allowed = resolutionOf(readings) > 0.5 * out.noise ? 3.0 : 0.0;
   for (double h = most_bandwidth_s / step; h >= 0.7; h /= std::sqrt(2.0)) {
     const Eigen::VectorXd smooth = smoothed(form, std::pow(h, 4), y, lower);
-    if (!smooth.allFinite() || !isNoise(y - smooth, out.noise, stretch)) continue;
+    if (!smooth.allFinite() || !isNoise(y - smooth, out.noise, allowed, stretch)) continue;
     out.values.assign(smooth.data(), smooth.data() + n);
     out.bandwidth_s = h * step;
     break;

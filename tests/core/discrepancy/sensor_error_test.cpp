@@ -6,12 +6,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <string>
 #include <vector>
 
 #include "core/base/random.h"
+#include "core/discrepancy/catalogue.h"
 #include "core/discrepancy/discrepancy.h"
 #include "core/discrepancy/drivers.h"
+#include "core/discrepancy/effect_search.h"
 #include "tests/core/discrepancy/small_plant.h"
 
 namespace spindrift {
@@ -158,6 +161,26 @@ TEST(SensorError, NoLoadFromOutsideIsNamedForStepsOfASensor) {
 }
 
 TEST(SensorError, CastingsTakeMinutesToTakeUpHeat) {
+  const DiscrepancyInput input = coarselyRead(3, 0.0);
+  std::vector<std::size_t> every(input.observations.rows.size());
+  std::iota(every.begin(), every.end(), std::size_t{0});
+  const ResidualProblem problem(input, every, 3000);
+  const DriverTable drivers(input.machine, &*input.log);
+  const std::vector<Effect> all = effectsOfMachine(input.machine, {});
+  const EffectSearch search(problem, drivers, all);
+  int loads = 0;
+  for (const Effect& effect : all) {
+    if (!effect.id.starts_with("external_heat.")) continue;
+    ++loads;
+    for (const double tau_s : search.pulseLagsOf(effect)) EXPECT_GE(tau_s, 180.0) << effect.id;
+    const ModelTerm term{&effect, effect.variants.front(), {1000.0, 2000.0, 600.0}};
+    EXPECT_EQ(search.parameterBounds(term, 2).first, 180.0) << effect.id;
+    EXPECT_EQ(search.parameterBounds(term, 0).first, problem.node_time_s.front()) << effect.id;
+  }
+  EXPECT_EQ(loads, 3);
+}
+
+TEST(SensorError, WhatOneStateAloneShowsIsNoLoad) {
   // A kick of five minutes between two states, which nothing in the log explains.
   DiscrepancyInput input = coarselyRead(3, 0.0);
   for (Observation& o : input.observations.rows) {
