@@ -162,7 +162,12 @@ MachineDescription MachineDescription::parse(const JsonNode& root, const std::fi
   machine.temperature_sensors =
       parseList<TemperatureSensor>(root, "temperature_sensors", "name", [](const JsonNode& node) {
         TemperatureSensor sensor{node.at("name").name(), node.stringOr("place", "")};
-        if (const auto role = node.find("role")) sensor.role = sensorRoleFromString(role->oneOf(sensorRoleNames()));
+        if (const auto role = node.find("role")) {
+          const std::string text = role->name();
+          sensor.role = sensorRoleFromString(text);
+          if (!sensor.role) sensor.role = readSensorRole(text);
+          if (!sensor.role) sensor.unread_role = text;
+        }
         return sensor;
       });
   machine.points = parseList<MachinePoint>(root, "points", "id", [](const JsonNode& node) {

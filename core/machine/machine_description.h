@@ -43,6 +43,7 @@ struct TemperatureSensor {
   std::string name;  ///< column of the log, "T_column_degC"
   std::string place;
   std::optional<SensorRole> role;  ///< as stated; nothing: read from name and place (readSensor)
+  std::string unread_role{};       ///< stated in words that tell no role
 };
 
 /// A place where the deviation is measured.

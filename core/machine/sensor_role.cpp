@@ -9,6 +9,7 @@
 #include <map>
 #include <set>
 
+#include "core/base/text.h"
 #include "core/machine/machine_description.h"
 
 namespace spindrift {
@@ -367,19 +368,15 @@ std::optional<SensorRole> readSensorRole(std::string_view text) {
   return std::nullopt;
 }
 
-SensorReading readSensor(const std::vector<TemperatureSensor>& stated, const std::string& column) {
+namespace {
+
+/// What name and place tell; `sensor`: as stated in machine.json, null if it is not there.
+SensorReading readByName(const TemperatureSensor* sensor, const std::string& column) {
   SensorReading reading;
   reading.column = column;
   reading.from = "name";
-  const auto sensor =
-      std::find_if(stated.begin(), stated.end(), [&](const TemperatureSensor& s) { return s.name == column; });
-  if (sensor != stated.end() && sensor->role) {
-    reading.role = *sensor->role;
-    reading.from = "machine.json";
-    return reading;
-  }
   const std::optional<SensorRole> by_name = readSensorRole(column);
-  const std::optional<SensorRole> by_place = sensor == stated.end() ? std::nullopt : readSensorRole(sensor->place);
+  const std::optional<SensorRole> by_place = sensor == nullptr ? std::nullopt : readSensorRole(sensor->place);
   if (!by_name) {
     reading.role = by_place.value_or(SensorRole::Other);
     return reading;
@@ -402,6 +399,22 @@ SensorReading readSensor(const std::vector<TemperatureSensor>& stated, const std
         "The sensor {} is taken for {} by its name, though its place \"{}\" says {}; a \"role\" in machine.json would "
         "decide.",
         column, describe(*by_name), sensor->place, describe(*by_place));
+  }
+  return reading;
+}
+
+}  // namespace
+
+SensorReading readSensor(const std::vector<TemperatureSensor>& stated, const std::string& column) {
+  const auto sensor =
+      std::find_if(stated.begin(), stated.end(), [&](const TemperatureSensor& s) { return s.name == column; });
+  if (sensor != stated.end() && sensor->role) return {column, *sensor->role, "machine.json", ""};
+  SensorReading reading = readByName(sensor == stated.end() ? nullptr : &*sensor, column);
+  if (sensor != stated.end() && !sensor->unread_role.empty()) {
+    reading.note = fmt::format(
+        "The role \"{}\" of the sensor {} in machine.json is none of those that are known ({}): it is taken for {} by "
+        "its name.",
+        sensor->unread_role, column, joinedList(sensorRoleNames()), describe(reading.role));
   }
   return reading;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which part of the machine a temperature sensor tells of. `"role"` of machine.json says it; without it the name of the
-// column, T_<name>_degC, is read, and what the name leaves open is read from `"place"`.
+// Which part of the machine a temperature sensor tells of. `"role"` of machine.json says it, by its name or in words
+// ("spindle", "Tisch"); without it, or where its words tell nothing, the name of the column, T_<name>_degC, is read,
+// and what the name leaves open is read from `"place"`.
 //
 // Names are read by whole words in English and German: a text is split at '_', '-', blanks, signs, digits and where a
 // small letter meets a capital; umlauts are read as ae, oe, ue. A word counts only as it stands in the vocabulary
@@ -65,7 +66,7 @@ struct SensorReading {
   std::string column;  ///< "T_room_degC"
   SensorRole role = SensorRole::Other;
   std::string from;  ///< "machine.json": stated there; "name": read from the name or the place, to be confirmed
-  std::string note;  ///< a sentence where name and place contradict each other; else empty
+  std::string note;  ///< a sentence where name and place contradict each other, or a role cannot be read; else empty
 };
 
 /// The reading of every column of temperatures, with what machine.json says of it.

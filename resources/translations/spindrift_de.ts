@@ -11536,6 +11536,10 @@ endgültig fehlgeschlagen: {}</translation>
         <source>{} of all points drifts together by {:.2f} {} rms, with a correlation time of {:.0f} min: it is taken for a drift of the instrument.</source>
         <translation>{} aller Punkte driftet gemeinsam um {:.2f} {} rms, mit einer Korrelationszeit von {:.0f} min: Es gilt als Drift des Messgeräts.</translation>
     </message>
+    <message>
+        <source>The role &quot;{}&quot; of the sensor {} in machine.json is none of those that are known ({}): it is taken for {} by its name.</source>
+        <translation>Die Rolle „{}“ des Sensors {} in machine.json ist keine der bekannten ({}): Nach seinem Namen gilt er als {}.</translation>
+    </message>
 </context>
 <context>
     <name>help</name>
