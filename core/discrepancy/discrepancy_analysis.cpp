@@ -253,9 +253,15 @@ void weigh(Analysis& a, const DiscrepancyInput& input, ResidualProblem& problem,
         return drivenByLog(term) || std::any_of(posterior.fit.terms.begin(), posterior.fit.terms.end(),
                                                 [&](const ModelTerm& t) { return t.effect->id == term.effect->id; });
       });
-  if (driven && a.posterior.over_unknown > posterior.over_unknown + priors.instead_of_common_noise &&
-      movedTogether(problem, problem.noise).empty())
-    return;
+  if (driven && movedTogether(problem, problem.noise).empty()) {
+    // Each beside the nuisances that its own noise leaves: without shifts these are stretched to follow them.
+    ResidualProblem before = problem;
+    NoiseModel shifted = noise;
+    shifted.weight = problem.noise.weight;
+    before.setNoise(shifted);
+    if (answerDeviance(problem, a.posterior) + priors.instead_of_common_noise < answerDeviance(before, posterior))
+      return;
+  }
   a.drivers->shiftClock(clock_offset_s - a.clock_offset_s);
   a.clock_offset_s = clock_offset_s;
   a.clock_uncertainty_s = clock_uncertainty_s;

@@ -146,6 +146,14 @@ double smoothBesideNoise(const ResidualProblem& problem, const JointFit& fit, co
   return smoothIn(profiles, differing(problem, by_named, by_all)) + std::max(0.0, of_named.price - of_all.price);
 }
 
+double answerDeviance(const ResidualProblem& problem, const EffectPosterior& posterior) {
+  Eigen::VectorXd left = problem.without(posterior.fit.contribution);
+  const ResidualProblem::NuisancePart taken = problem.nuisancePart(left);
+  left -= taken.values;
+  const NoiseProfiles profiles = noiseProfiles(problem, left, {true, true, true, true, true, true});
+  return jointDeviance(profiles, &NoiseProfile::with_unknown) + taken.price + posterior.price;
+}
+
 bool holdsEffect(const Effect& container, const std::string& simple) {
   return std::find(container.contains.begin(), container.contains.end(), simple) != container.contains.end();
 }
@@ -616,6 +624,9 @@ void PosteriorSearch::weighAgainstUnknown(EffectPosterior& posterior, Remainder&
     r.evidence = std::min(r.evidence, smoothIn(with, one) + std::max(0.0, spared));
   }
   if (fit.terms.empty()) return;
+  double parameters = 0.0;
+  for (const ModelTerm& term : fit.terms) parameters += static_cast<double>(term.parameters.size());
+  posterior.price = (static_cast<double>(fit.parameter_count) - parameters) * search_->logN() + priceOf(fit);
   struct Weight {
     double over_unknown = 0.0;
     double over_noise = 0.0;

@@ -117,6 +117,7 @@ struct EffectPosterior {
   /// 2 ln of the odds that these effects are there, all that were not put in by hand or by the simulation, and not
   /// noise and a smooth remainder made as large as needed; 0 without any.
   double over_unknown = 0.0;
+  double price = 0.0;  ///< of all its effects, in 2 ln: their gains and what each pays for its choice
   /// Probability that an effect is in the set, of all that were looked at, most probable first; what the user rejected
   /// is among them.
   std::vector<std::pair<std::string, double>> candidates;
@@ -140,6 +141,11 @@ struct Remainder {
 /// 2 ln of the odds that there is something smooth beside the noise where `named` leaves more than `fit` does; infinite
 /// where too few readings could tell.
 [[nodiscard]] double smoothBesideNoise(const ResidualProblem& problem, const JointFit& fit, const JointFit& named);
+
+/// -2 ln of the probability of the data with the effects of `posterior`, up to a constant: beside noise and a smooth
+/// remainder made as large as needed, with the nuisances and the weights of readings as the noise of `problem` has
+/// them. Tells answers apart that were found beside different noise.
+[[nodiscard]] double answerDeviance(const ResidualProblem& problem, const EffectPosterior& posterior);
 
 class PosteriorSearch {
  public:

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/base/random.h"
+#include "core/discrepancy/effect_posterior.h"
 #include "core/discrepancy/residual_problem.h"
 
 namespace spindrift {
@@ -304,6 +305,43 @@ TEST(NoiseAlone, ShiftsOfOtherAxesSpeakForThoseOfThis) {
   }
   EXPECT_GT(beside_shifted, beside_still + 2.0);
   EXPECT_LE(never, 1);
+}
+
+TEST(NoiseAlone, AnAnswerPaysForWhatItsNoiseLeavesToTheSimulation) {
+  // Few states: a part of the simulation happens to go as their shifts do. Without shifts in the noise it is stretched
+  // to follow them, eight standard deviations, which an answer beside such noise has to pay.
+  constexpr std::size_t few_states = 8;
+  constexpr double stretched = 8.0;
+  for (const std::uint64_t seed : {11U, 12U, 13U}) {
+    DiscrepancyInput in = readings(seed, {0.0, 0.0, 0.0}, 0.0, 24, few_states);
+    Random random(seed);
+    std::array<double, few_states> course{};
+    for (double& value : course) value = random.normal();
+    Eigen::VectorXd part(static_cast<Eigen::Index>(in.observations.rows.size()));
+    for (Eigen::Index r = 0; r < part.size(); ++r) {
+      Observation& o = in.observations.rows[static_cast<std::size_t>(r)];
+      part[r] = o.component == Component::EX ? course[static_cast<std::size_t>(std::stoi(o.state.substr(1)))] : 0.0;
+      o.value += own_um * part[r];
+    }
+    std::vector<std::size_t> rows(in.observations.rows.size());
+    for (std::size_t i = 0; i < rows.size(); ++i) rows[i] = i;
+    ResidualProblem problem(in, rows, 3000);
+    Eigen::VectorXd of_units(problem.size());
+    for (Eigen::Index u = 0; u < of_units.size(); ++u)
+      of_units[u] = part[static_cast<Eigen::Index>(problem.unit_rows[static_cast<std::size_t>(u)].front())];
+    problem.setNuisances({{of_units, own_um / stretched, false}});
+    problem.setNoise(estimateNoise(problem, problem.y, true));
+    ASSERT_GT(problem.noise.of(Component::EX).common, 0.4 * own_um) << seed;
+    EffectPosterior nothing;
+    const double with_shifts = answerDeviance(problem, nothing);
+    ResidualProblem without = problem;
+    NoiseModel own = problem.noise;
+    for (const Component c : axes) own.of(c).common = 0.0;
+    without.setNoise(own);
+    EXPECT_GT(answerDeviance(without, nothing), with_shifts + 0.3 * stretched * stretched) << seed;
+    nothing.price = 7.0;
+    EXPECT_NEAR(answerDeviance(problem, nothing), with_shifts + 7.0, 1e-9);
+  }
 }
 
 TEST(NoiseAlone, LikelihoodsOfLargeShiftsStayNumbers) {
