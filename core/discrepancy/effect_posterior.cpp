@@ -624,22 +624,20 @@ void PosteriorSearch::weighAgainstUnknown(EffectPosterior& posterior, Remainder&
     r.evidence = std::min(r.evidence, smoothIn(with, one) + std::max(0.0, spared));
   }
   if (fit.terms.empty()) return;
-  double parameters = 0.0;
-  for (const ModelTerm& term : fit.terms) parameters += static_cast<double>(term.parameters.size());
-  posterior.price = (static_cast<double>(fit.parameter_count) - parameters) * search_->logN() + priceOf(fit);
+  const auto wholePrice = [&](const JointFit& of) {
+    double gains = of.parameter_count;
+    for (const ModelTerm& term : of.terms) gains -= static_cast<double>(term.parameters.size());
+    return gains * search_->logN() + priceOf(of);
+  };
+  posterior.price = wholePrice(fit);
   struct Weight {
     double over_unknown = 0.0;
     double over_noise = 0.0;
   };
   const auto over = [&](const std::vector<std::size_t>& taken_out) {
     std::vector<ModelTerm> others;
-    double own_parameters = 0.0;
     for (std::size_t t = 0; t < fit.terms.size(); ++t) {
-      if (std::find(taken_out.begin(), taken_out.end(), t) == taken_out.end()) {
-        others.push_back(fit.terms[t]);
-      } else {
-        own_parameters += static_cast<double>(fit.terms[t].parameters.size());
-      }
+      if (std::find(taken_out.begin(), taken_out.end(), t) == taken_out.end()) others.push_back(fit.terms[t]);
     }
     const JointFit without = search_->solve(others);
     Eigen::VectorXd more = problem_->without(without.contribution);
@@ -649,8 +647,7 @@ void PosteriorSearch::weighAgainstUnknown(EffectPosterior& posterior, Remainder&
     NoiseProfiles profiles = noiseProfiles(*problem_, more, changed);
     for (std::size_t c = 0; c < changed.size(); ++c)
       if (!changed[c]) profiles[c] = with[c];
-    const double gains = static_cast<double>(fit.parameter_count - without.parameter_count) - own_parameters;
-    const double price = gains * search_->logN() + (priceOf(fit) - priceOf(without)) - (taken_more.price - taken.price);
+    const double price = posterior.price - wholePrice(without) - (taken_more.price - taken.price);
     return Weight{jointDeviance(profiles, &NoiseProfile::with_unknown) - with_unknown - price,
                   jointDeviance(profiles, &NoiseProfile::noise_alone) - noise_alone - price};
   };
