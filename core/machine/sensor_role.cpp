@@ -413,7 +413,7 @@ SensorReading readSensor(const std::vector<TemperatureSensor>& stated, const std
   if (sensor != stated.end() && !sensor->unread_role.empty()) {
     reading.note = fmt::format(
         "The role \"{}\" of the sensor {} in machine.json is none of those that are known ({}): it is taken for {} by "
-        "its name.",
+        "its name or place.",
         sensor->unread_role, column, joinedList(sensorRoleNames()), describe(reading.role));
   }
   return reading;

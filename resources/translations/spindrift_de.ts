@@ -11537,8 +11537,8 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>{} aller Punkte driftet gemeinsam um {:.2f} {} rms, mit einer Korrelationszeit von {:.0f} min: Es gilt als Drift des Messgeräts.</translation>
     </message>
     <message>
-        <source>The role &quot;{}&quot; of the sensor {} in machine.json is none of those that are known ({}): it is taken for {} by its name.</source>
-        <translation>Die Rolle „{}“ des Sensors {} in machine.json ist keine der bekannten ({}): Nach seinem Namen gilt er als {}.</translation>
+        <source>The role &quot;{}&quot; of the sensor {} in machine.json is none of those that are known ({}): it is taken for {} by its name or place.</source>
+        <translation>Die Rolle „{}“ des Sensors {} in machine.json ist keine der bekannten ({}): Nach Name oder Ort gilt er als {}.</translation>
     </message>
 </context>
 <context>

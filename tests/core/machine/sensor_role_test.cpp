@@ -208,7 +208,7 @@ TEST(SensorRole, AnUnknownRoleIsOneSentenceAndTheNameIsRead) {
   EXPECT_EQ(roleOf("T_1_degC").role, SensorRole::Other);
   EXPECT_EQ(roleOf("T_room_degC").role, SensorRole::Room);
   EXPECT_EQ(roleOf("T_room_degC").from, "name");
-  for (const char* said : {"machine.json", "\"tabel\"", "T_room_degC", "spindle_bearing", "room"})
+  for (const char* said : {"machine.json", "\"tabel\"", "T_room_degC", "spindle_bearing", "taken for room by its name"})
     EXPECT_THAT(roleOf("T_room_degC").note, HasSubstr(said));
   EXPECT_THROW((void)machineWith(R"({"name":"T_1_degC","role":3})"), InputError);
   EXPECT_THROW((void)machineWith(R"({"name":"T_1_degC","role":""})"), InputError);

@@ -24,7 +24,7 @@ std::span<const char* const> spindrift::gui::core_formats::machine() noexcept {
     QT_TRANSLATE_NOOP("core", "The nine parameters are enough (probability {:.2g} among {} models)."),
     QT_TRANSLATE_NOOP("core", "The points do not determine the nine parameters, and so nothing of higher order."),
     QT_TRANSLATE_NOOP("core", "The residuals are larger than the stated uncertainties allow (chi-squared {:.1f} with {} degrees of freedom, {}): the nine parameters do not describe this state, or a point is disturbed."),
-    QT_TRANSLATE_NOOP("core", "The role \"{}\" of the sensor {} in machine.json is none of those that are known ({}): it is taken for {} by its name."),
+    QT_TRANSLATE_NOOP("core", "The role \"{}\" of the sensor {} in machine.json is none of those that are known ({}): it is taken for {} by its name or place."),
     QT_TRANSLATE_NOOP("core", "The sensor {} is taken for {} by its name, though its place \"{}\" says {}; a \"role\" in machine.json would decide."),
     QT_TRANSLATE_NOOP("core", "The simulation is extrapolated at {} {}, up to {:.3g} mm outside the places that {} predicts."),
     QT_TRANSLATE_NOOP("core", "There are too few points to see anything of higher order than the nine parameters."),
