@@ -79,11 +79,13 @@ struct Parameters {
   double time_s = 0.0;
 };
 
-/// Products of all columns [shifts, smooth, constants, residual] through the inverse of the own noise at scale 1, which
-/// here includes the courses that series have for themselves.
+/// Products of the columns [shifts, smooth, residual] through the inverse of the own noise at scale 1, which here
+/// includes the courses that series have for themselves, and free of the constants of the series: these have no prior,
+/// so they take the same whatever the sizes of the rest.
 struct Products {
   Eigen::MatrixXd gram;
-  double log_det = 0.0;
+  Eigen::MatrixXd constants;  // of every series (rows), what its constant takes of every column
+  double log_det = 0.0;       // of the own noise, and of the constants
 };
 
 /// Inverse of the lower Cholesky factor of the own noise of one series at scale 1, times `columns` (its rows only);
@@ -117,32 +119,51 @@ void whitenOwn(const ResidualProblem& problem, const ComponentData& data, std::s
 Products productsOf(const ResidualProblem& problem, const ComponentData& data, double part, double time_s) {
   const Index s = data.shifts.cols();
   const Index m = data.smooth.cols();
-  const auto p = problem.free_constants ? static_cast<Index>(data.series.size()) : Index{0};
-  const Index total = s + m + p + 1;
+  const Index total = s + m + 1;
   Products out;
   out.gram = Eigen::MatrixXd::Zero(total, total);
+  if (problem.free_constants) out.constants = Eigen::MatrixXd::Zero(static_cast<Index>(data.series.size()), total);
   for (std::size_t k = 0; k < data.series.size(); ++k) {
     const auto [from, to] = data.series[k];
     const Index n = to - from;
-    Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(n, total);
-    columns.leftCols(s) = data.shifts.middleRows(from, n);
-    columns.middleCols(s, m) = data.smooth.middleRows(from, n);
-    if (p > 0) columns.col(s + m + static_cast<Index>(k)).setOnes();
-    columns.col(total - 1) = data.residual.segment(from, n);
     const double own = data.own_course[k];
     const Index hats = own > 0.0 ? data.hats.cols() : 0;
-    columns.conservativeResize(n, total + hats);
+    Eigen::MatrixXd columns(n, total + 1 + hats);
+    columns.leftCols(s) = data.shifts.middleRows(from, n);
+    columns.middleCols(s, m) = data.smooth.middleRows(from, n);
+    columns.col(s + m) = data.residual.segment(from, n);
+    columns.col(total).setOnes();
     if (hats > 0) columns.rightCols(hats) = own * data.hats.middleRows(from, n);
     whitenOwn(problem, data, k, part, time_s, columns, out.log_det);
-    if (hats > 0) {
-      const Eigen::MatrixXd b = columns.rightCols(hats);
-      columns.conservativeResize(n, total);
-      const Eigen::LLT<Eigen::MatrixXd> llt(Eigen::MatrixXd::Identity(hats, hats) + b.transpose() * b);
-      const Eigen::MatrixXd taken = llt.matrixL().solve(b.transpose() * columns);
-      out.log_det += 2.0 * llt.matrixLLT().diagonal().array().log().sum();
-      out.gram.selfadjointView<Eigen::Lower>().rankUpdate(taken.transpose(), -1.0);
+    auto x = columns.leftCols(total);
+    const auto one = columns.col(total);
+    Eigen::RowVectorXd taken_by_one = Eigen::RowVectorXd::Zero(total);
+    // Constants are large beside all else: without them first, little is lost to rounding.
+    if (problem.free_constants && one.squaredNorm() > 0.0) {
+      taken_by_one = one.transpose() * x / one.squaredNorm();
+      x.noalias() -= one * taken_by_one;
     }
-    out.gram.selfadjointView<Eigen::Lower>().rankUpdate(columns.transpose());
+    Eigen::MatrixXd taken;  // by the course of its own, of [shifts, smooth, residual, constant]
+    if (hats > 0) {
+      const auto b = columns.rightCols(hats);
+      const Eigen::LLT<Eigen::MatrixXd> llt(Eigen::MatrixXd::Identity(hats, hats) + b.transpose() * b);
+      taken = llt.matrixL().solve(b.transpose() * columns.leftCols(total + 1));
+      out.log_det += 2.0 * llt.matrixLLT().diagonal().array().log().sum();
+      out.gram.selfadjointView<Eigen::Lower>().rankUpdate(taken.leftCols(total).transpose(), -1.0);
+    }
+    out.gram.selfadjointView<Eigen::Lower>().rankUpdate(x.transpose());
+    if (!problem.free_constants) continue;
+    // A prior so wide that it is none; it keeps a series without weight from stopping all.
+    constexpr double hardly_any = 1e-12;
+    double weight = one.squaredNorm() + hardly_any;
+    if (hats > 0) {
+      weight -= taken.col(total).squaredNorm();
+      const Eigen::RowVectorXd rest = -taken.col(total).transpose() * taken.leftCols(total) / weight;
+      out.gram.selfadjointView<Eigen::Lower>().rankUpdate(rest.transpose(), -weight);
+      taken_by_one += rest;
+    }
+    out.constants.row(static_cast<Index>(k)) = taken_by_one;
+    out.log_det += std::log(weight);
   }
   out.gram.triangularView<Eigen::StrictlyUpper>() = out.gram.transpose();
   return out;
@@ -153,39 +174,39 @@ Products drifting(Products products, const Eigen::MatrixXd& factor) {
   const Index s = factor.rows();
   products.gram.topRows(s) = factor.transpose() * products.gram.topRows(s).eval();
   products.gram.leftCols(s) = products.gram.leftCols(s).eval() * factor;
+  if (products.constants.rows() > 0) products.constants.leftCols(s) = products.constants.leftCols(s).eval() * factor;
   return products;
 }
 
 /// -2 ln of the restricted likelihood, up to a constant; the Cholesky factor of the bordered matrix in `factor`.
-double objective(const ComponentData& data, const Products& products, const Parameters& p, bool constants,
+double objective(const ComponentData& data, const Products& products, const Parameters& p,
                  Eigen::LLT<Eigen::MatrixXd>* factor = nullptr) {
-  const Index s = data.shifts.cols();
+  // Shifts of no size take nothing.
+  const Index left_out = p.shift == 0.0 && factor == nullptr ? data.shifts.cols() : Index{0};
+  const Index s = data.shifts.cols() - left_out;
   const Index m = data.smooth.cols();
-  const Index total = products.gram.cols();
+  const Index total = s + m + 1;
   const double scale2 = std::exp(2.0 * p.log_scale);
   Eigen::VectorXd d = Eigen::VectorXd::Ones(total);
   d.head(s).setConstant(p.shift);
   d.segment(s, m).setConstant(p.smooth);
-  Eigen::MatrixXd a = d.asDiagonal() * products.gram * d.asDiagonal() / scale2;
+  Eigen::MatrixXd a = d.asDiagonal() * products.gram.bottomRightCorner(total, total) * d.asDiagonal() / scale2;
   a.diagonal().head(s + m).array() += 1.0;
-  // Constants of the series: a prior so wide that it is none; it keeps a series without weight from stopping all.
-  if (constants) a.diagonal().segment(s + m, total - 1 - s - m).array() += 1e-12;
   // Readings without any noise leave nothing behind but rounding, of either sign.
   a(total - 1, total - 1) = a(total - 1, total - 1) * (1.0 + 1e-12) + 1e-9;
-  Eigen::LLT<Eigen::MatrixXd> llt(a);
+  Eigen::LLT<Eigen::MatrixXd> llt(std::move(a));
   if (llt.info() != Eigen::Success) return 1e300;
   const auto diagonal = llt.matrixLLT().diagonal();
   const double chi2 = diagonal[total - 1] * diagonal[total - 1];
   const double log_det = 2.0 * diagonal.head(total - 1).array().log().sum();
-  const double n = static_cast<double>(data.residual.size());
+  const auto n = static_cast<double>(data.residual.size() - products.constants.rows());
   if (factor != nullptr) *factor = std::move(llt);
   return n * 2.0 * p.log_scale + products.log_det + log_det + chi2 + std::pow(p.log_scale / scale_prior_sd, 2);
 }
 
 /// Pattern search over the logarithms of scale, shift and smooth part.
-double optimise(const ComponentData& data, const Products& products, bool constants, bool with_shift, Parameters& p,
-                int rounds) {
-  double best = objective(data, products, p, constants);
+double optimise(const ComponentData& data, const Products& products, bool with_shift, Parameters& p, int rounds) {
+  double best = objective(data, products, p);
   double step = rounds > 4 ? 0.8 : 0.3;
   for (int round = 0; round < rounds; ++round, step *= 0.5) {
     for (int which = 0; which < 3; ++which) {
@@ -199,7 +220,7 @@ double optimise(const ComponentData& data, const Products& products, bool consta
           if (trial.log_scale < std::log(data.least_scale)) break;
           if (which == 1) trial.shift *= factor;
           if (which == 2) trial.smooth *= factor;
-          const double value = objective(data, products, trial, constants);
+          const double value = objective(data, products, trial);
           if (!(value < best - 1e-3)) break;
           best = value;
           p = trial;
@@ -214,7 +235,7 @@ double optimise(const ComponentData& data, const Products& products, bool consta
 Eigen::VectorXd withoutCommon(const ResidualProblem& problem, const ComponentData& data, const Products& products,
                               const Parameters& p) {
   Eigen::LLT<Eigen::MatrixXd> factor;
-  objective(data, products, p, problem.free_constants, &factor);
+  objective(data, products, p, &factor);
   if (factor.rows() == 0) return data.residual;  // beyond what numbers can tell apart: nothing is taken out
   const Index s = data.shifts.cols();
   const Index m = data.smooth.cols();
@@ -222,14 +243,17 @@ Eigen::VectorXd withoutCommon(const ResidualProblem& problem, const ComponentDat
   // The last row of the factor holds L^-1 [F X]' r; solving with the rest gives the coefficients.
   const Eigen::MatrixXd l = factor.matrixL();
   const Eigen::VectorXd z = l.row(total - 1).head(total - 1).transpose();
-  const Eigen::VectorXd b = l.topLeftCorner(total - 1, total - 1).transpose().triangularView<Eigen::Upper>().solve(z);
+  Eigen::VectorXd b = l.topLeftCorner(total - 1, total - 1).transpose().triangularView<Eigen::Upper>().solve(z);
+  b.head(s) *= p.shift;
+  b.tail(m) *= p.smooth;
   Eigen::VectorXd left = data.residual;
-  if (s > 0) left -= p.shift * (data.shifts * b.head(s));
-  if (m > 0) left -= p.smooth * (data.smooth * b.segment(s, m));
+  if (s > 0) left -= data.shifts * b.head(s);
+  if (m > 0) left -= data.smooth * b.tail(m);
   if (problem.free_constants) {
+    const Eigen::VectorXd constants = products.constants.col(total - 1) - products.constants.leftCols(total - 1) * b;
     for (std::size_t k = 0; k < data.series.size(); ++k) {
       const auto [from, to] = data.series[k];
-      left.segment(from, to - from).array() -= b[s + m + static_cast<Index>(k)];
+      left.segment(from, to - from).array() -= constants[static_cast<Index>(k)];
     }
   }
   return left;
@@ -478,7 +502,7 @@ double findDrift(const ResidualProblem& problem, ComponentData& data, const Prod
   } found;
   const auto consider = [&](double part, double time_s, Parameters trial, int rounds) {
     const Products products = drifting(independent, shiftFactor(data.state_time_s, part, time_s));
-    const double deviance = optimise(data, products, problem.free_constants, true, trial, rounds);
+    const double deviance = optimise(data, products, true, trial, rounds);
     if (deviance < found.deviance) found = {deviance, trial, part, time_s};
   };
   for (const double steps : {2.0, 8.0}) {
@@ -518,11 +542,11 @@ void estimateAt(const ResidualProblem& problem, ComponentEstimate& e, bool again
     white.smooth = e.data.mean_sigma;
   }
   if (shifts && !(white.shift > 0.0)) white.shift = 0.3 * e.data.mean_sigma;
-  double best = optimise(e.data, products, constants, shifts, white, again ? 3 : 6);
+  double best = optimise(e.data, products, shifts, white, again ? 3 : 6);
   if (shifts) {
     Parameters without = white;
     without.shift = 0.0;
-    const double value = optimise(e.data, products, constants, false, without, 3);
+    const double value = optimise(e.data, products, false, without, 3);
     if (value < best + shift_price) {
       white = without;
       best = value;
@@ -553,7 +577,7 @@ void estimateAt(const ResidualProblem& problem, ComponentEstimate& e, bool again
       Parameters trial = best_correlated < 1e299 ? correlated : white;
       trial.part = part;
       trial.time_s = time_s;
-      const double value = optimise(e.data, trial_products, constants, trial.shift > 0.0, trial, rounds);
+      const double value = optimise(e.data, trial_products, trial.shift > 0.0, trial, rounds);
       if (value < best_correlated) {
         best_correlated = value;
         correlated = trial;
@@ -659,7 +683,7 @@ std::vector<double> shiftDeviances(const ResidualProblem& problem, const Compone
   for (std::size_t i = 0; i <= sizes.size(); ++i) {
     Parameters p = e.p;
     p.shift = i < sizes.size() ? sizes[i] : 0.0;
-    out.push_back(optimise(e.data, products, problem.free_constants, false, p, 2));
+    out.push_back(optimise(e.data, products, false, p, 2));
   }
   return out;
 }

@@ -296,13 +296,14 @@ ResidualProblem::ResidualProblem(const DiscrepancyInput& input, const std::vecto
       double power = 0.0;
       const double count = static_cast<double>(b.members.size());
       std::vector<std::size_t> observations;
+      std::map<int, int> nodes;  // how many readings were taken at each
       for (const std::size_t m : b.members) {
         const std::size_t row = rows[m];
         value += all[row].value - input.predicted[row];
         if (!level.empty()) value -= level[row_point[m] * 6 + static_cast<std::size_t>(all[row].component)];
         prediction += input.predicted[row];
         power += all[row].sigma * all[row].sigma;
-        node_index_.push_back(nodeOf(all[row].time_s));
+        ++nodes[nodeOf(all[row].time_s)];
         unit_of_row[row] = static_cast<Index>(values.size());
         observations.push_back(row);
       }
@@ -318,7 +319,8 @@ ResidualProblem::ResidualProblem(const DiscrepancyInput& input, const std::vecto
       predictions.push_back(prediction / count);
       sigmas.push_back(std::sqrt(power) / count);
       reading_sigmas.push_back(std::sqrt(power / count));
-      node_begin_.push_back(node_index_.size());
+      for (const auto& [node, readings] : nodes) node_weights_.push_back({node, readings / count});
+      node_begin_.push_back(node_weights_.size());
       unit_rows.push_back(std::move(observations));
     }
     i = end;
@@ -411,8 +413,8 @@ Eigen::VectorXd ResidualProblem::toUnits(const Eigen::VectorXd& at_nodes) const 
     const std::size_t from = node_begin_[static_cast<std::size_t>(u)];
     const std::size_t to = node_begin_[static_cast<std::size_t>(u) + 1];
     double sum = 0.0;
-    for (std::size_t k = from; k < to; ++k) sum += at_nodes[node_index_[k]];
-    out[u] = sum / static_cast<double>(to - from);
+    for (std::size_t k = from; k < to; ++k) sum += node_weights_[k].weight * at_nodes[node_weights_[k].node];
+    out[u] = sum;
   }
   return out;
 }

@@ -220,8 +220,13 @@ class ResidualProblem {
   void takeDrift(const NoiseModel& drifts, const ShiftColumns& shifts, Eigen::MatrixXd& z) const;
   void whitenDomain(std::size_t domain, Eigen::Ref<Eigen::MatrixXd> rows) const;
   const std::vector<Observation>* observations_ = nullptr;  ///< of the input, which outlives the problem
+  /// What a unit takes of the value at a node: neighbours that were merged have one time, or a few.
+  struct NodeWeight {
+    int node = 0;
+    double weight = 1.0;
+  };
   std::vector<std::size_t> node_begin_;
-  std::vector<int> node_index_;
+  std::vector<NodeWeight> node_weights_;
   std::vector<std::vector<DeviationQuery>> members_;  ///< of each series, where points were merged; else empty
   std::vector<UnitFactor> shared_;
   std::vector<Coupled> coupled_;
