@@ -215,8 +215,15 @@ void tellCandidates(const EffectPosterior& posterior, const DiscrepancyOptions& 
 }
 
 std::string sentenceOf(const DiscrepancyResult& result, const DiscrepancyOptions& options) {
+  const NoiseEstimate* far = farAboveStated(result.noise);
   switch (result.verdict) {
     case DiscrepancyVerdict::None:
+      if (result.gap.withinNoise() && far != nullptr) {
+        return fmt::format(
+            "Nothing stands out of the scatter, but the readings of {} scatter {:.0f} times as much as their stated "
+            "sigma: what is smaller would not show.",
+            toString(far->component), far->scale);
+      }
       return result.gap.withinNoise() ? "Measurement and simulation agree within the noise."
                                       : "Measurement and simulation differ by no more than a rough simulation may be "
                                         "off by; nothing is missing beyond that.";
@@ -265,6 +272,13 @@ std::string_view toString(DiscrepancyVerdict verdict) noexcept {
       return "none";
   }
   return "none";
+}
+
+const NoiseEstimate* farAboveStated(const std::vector<NoiseEstimate>& noise) {
+  constexpr double far = 3.0;
+  const auto most = std::max_element(noise.begin(), noise.end(),
+                                     [](const NoiseEstimate& a, const NoiseEstimate& b) { return a.scale < b.scale; });
+  return most != noise.end() && most->scale > far ? &*most : nullptr;
 }
 
 const NoiseEstimate* DiscrepancyResult::noiseOf(Component component) const {

@@ -111,6 +111,10 @@ struct NoiseEstimate {
   double correlation_time_s = 0.0;
 };
 
+/// The component whose readings scatter most over their stated sigma, if one does by more than three times: what agrees
+/// within such a scatter shows little. Null if none does.
+[[nodiscard]] const NoiseEstimate* farAboveStated(const std::vector<NoiseEstimate>& noise);
+
 /// The shift of one state that re-referencing leaves.
 struct StateShift {
   std::string state;

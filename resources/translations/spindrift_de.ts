@@ -11540,6 +11540,10 @@ endgültig fehlgeschlagen: {}</translation>
         <source>The role &quot;{}&quot; of the sensor {} in machine.json is none of those that are known ({}): it is taken for {} by its name or place.</source>
         <translation>Die Rolle „{}“ des Sensors {} in machine.json ist keine der bekannten ({}): Nach Name oder Ort gilt er als {}.</translation>
     </message>
+    <message>
+        <source>Nothing stands out of the scatter, but the readings of {} scatter {:.0f} times as much as their stated sigma: what is smaller would not show.</source>
+        <translation>Nichts hebt sich von der Streuung ab, aber die Messwerte von {} streuen {:.0f}-mal so stark wie ihr angegebenes Sigma: Was kleiner ist, fiele nicht auf.</translation>
+    </message>
 </context>
 <context>
     <name>help</name>
@@ -15152,6 +15156,14 @@ einsatz</translation>
     <message>
         <source>Discard</source>
         <translation>Verwerfen</translation>
+    </message>
+    <message>
+        <source>Nothing stands out of the scatter of the readings, which is large.</source>
+        <translation>Nichts hebt sich von der Streuung der Messwerte ab, und die ist groß.</translation>
+    </message>
+    <message>
+        <source>Readings of %1 scatter %2 times as much as their stated σ: what is smaller than the noise of %3 would not show. Check how they were taken.</source>
+        <translation>Die Messwerte von %1 streuen %2-mal so stark wie ihr angegebenes σ: Was kleiner als das Rauschen von %3 ist, fiele nicht auf. Prüfen Sie, wie sie gemessen wurden.</translation>
     </message>
 </context>
 <context>

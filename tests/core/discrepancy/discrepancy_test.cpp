@@ -58,6 +58,20 @@ TEST(Discrepancy, NamesNothingWhenNothingIsMissing) {
   }
 }
 
+TEST(Discrepancy, NothingMissingIsSaidWithTheScatterThatWouldHideIt) {
+  // Of readings that scatter ten times as much as they state, that they agree shows little.
+  DiscrepancyInput input = campaign(Hidden::Nothing, 12);
+  EXPECT_EQ(run(input).message, "Measurement and simulation agree within the noise.");
+  for (Observation& o : input.observations.rows) {
+    if (o.component == Component::EY) o.sigma /= 10.0;
+  }
+  const DiscrepancyResult result = run(std::move(input));
+  EXPECT_EQ(result.verdict, DiscrepancyVerdict::None);
+  EXPECT_EQ(result.message,
+            "Nothing stands out of the scatter, but the readings of EY scatter 10 times as much as their stated sigma: "
+            "what is smaller would not show.");
+}
+
 TEST(Discrepancy, AbstainsOutsideTheCatalogue) {
   for (std::uint64_t seed = 21; seed <= 23; ++seed) {
     const DiscrepancyResult result = run(campaign(Hidden::Wave, seed));

@@ -78,6 +78,14 @@ Sentence verdictOf(const DiscrepancyStory& story) {
       story.leftover.empty() ? QString() : DiscrepancyPage::tr("Remainder: %1. ").arg(titledSentence(story.leftover));
   switch (story.verdict) {
     case DiscrepancyVerdict::None:
+      if (const NoiseEstimate* far = farAboveStated(story.noise); far != nullptr && story.gap.withinNoise()) {
+        return {DiscrepancyPage::tr("Nothing stands out of the scatter of the readings, which is large."),
+                DiscrepancyPage::tr("Readings of %1 scatter %2 times as much as their stated σ: what is smaller than "
+                                    "the noise of %3 would not show. Check how they were taken.")
+                    .arg(componentName(far->component), decimalText(far->scale, 'f', 0),
+                         sizeText(story.gap.noise_um, QStringLiteral("um"))),
+                Tone::Attention};
+      }
       return {
           story.gap.withinNoise()
               ? DiscrepancyPage::tr("Measured and simulated agree within the noise.")
