@@ -1,18 +1,22 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
 # The test command: installs what is missing, builds and runs every test. Prints how long each part took.
-# With --fuzz every reader is fed with mutated files afterwards, five minutes in all (preset fuzz, tests/fuzz/fuzz.sh).
+# With --fuzz every reader is fed with mutated files afterwards, five minutes of processors (preset fuzz, tests/fuzz/fuzz.sh),
+# with --clean-root the Debian package is installed into an empty Debian (tests/package/clean_root.sh), both at the same time.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 fuzz=
-case "${1:-}" in
-  '') ;;
-  --fuzz) fuzz=yes ;;
-  *)
-    echo "unknown option \"$1\"; allowed: --fuzz, or none" >&2
-    exit 2
-    ;;
-esac
+clean_root=
+for option in "$@"; do
+  case "$option" in
+    --fuzz) fuzz=yes ;;
+    --clean-root) clean_root=yes ;;
+    *)
+      echo "unknown option \"$option\"; allowed: --fuzz, --clean-root, or none" >&2
+      exit 2
+      ;;
+  esac
+done
 started=$SECONDS
 targets=()
 extra_packages=()
@@ -32,9 +36,15 @@ if [ -z "$total" ] || [ "$total" -eq 0 ]; then
   exit 1
 fi
 echo "$((total - failed)) passed, $failed failed"
+tested=$SECONDS
+fuzzing=
 if [ -n "$fuzz" ]; then
-  tested=$SECONDS
-  tests/fuzz/fuzz.sh --in-all 300 || status=1
-  echo "mutated files $((SECONDS - tested)) s"
+  (tests/fuzz/fuzz.sh --in-all 300 >build/fuzz.log 2>&1 && echo "mutated files $((SECONDS - tested)) s" >>build/fuzz.log) &
+  fuzzing=$!
+fi
+if [ -n "$clean_root" ]; then tests/package/clean_root.sh || status=1; fi
+if [ -n "$fuzzing" ]; then
+  wait "$fuzzing" || status=1
+  cat build/fuzz.log
 fi
 exit "$status"
