@@ -56,10 +56,37 @@ function(spindrift_core_library name)
   endif()
 endfunction()
 
-# spindrift_test(<name> SOURCES a_test.cpp ... LINK lib ... [TIMEOUT seconds] [LABELS l ...])
-# One GoogleTest program, registered with ctest as <name>.
+# spindrift_register_test(<name> [TIMEOUT seconds] [LABELS l ...] [PARTS <suffix>=<filter> ...])
+# Registers a GoogleTest program with ctest as <name>; one that takes minutes in parts, <name>_<suffix>, so that several run
+# at once and none takes too long on a slow machine. What no part names runs as <name>. The longest begin first.
+function(spindrift_register_test name)
+  cmake_parse_arguments(ARG "" "TIMEOUT" "LABELS;PARTS" ${ARGN})
+  if(NOT ARG_TIMEOUT)
+    set(ARG_TIMEOUT 300)
+  endif()
+  math(EXPR timeout "${ARG_TIMEOUT} * ${SPINDRIFT_TEST_SLOWNESS}")
+  set(tests ${name})
+  set(named "")
+  foreach(part ${ARG_PARTS})
+    string(REGEX MATCH "^([^=]+)=(.+)$" parsed "${part}")
+    add_test(NAME ${name}_${CMAKE_MATCH_1} COMMAND ${name} --gtest_filter=${CMAKE_MATCH_2})
+    list(APPEND tests ${name}_${CMAKE_MATCH_1})
+    string(APPEND named ":${CMAKE_MATCH_2}")
+  endforeach()
+  if(named)
+    string(REGEX REPLACE "^:" "-" named "${named}")
+    add_test(NAME ${name} COMMAND ${name} --gtest_filter=${named})
+  else()
+    add_test(NAME ${name} COMMAND ${name})
+  endif()
+  set_tests_properties(${tests} PROPERTIES TIMEOUT ${timeout} COST ${ARG_TIMEOUT} LABELS "${ARG_LABELS}"
+                                         ENVIRONMENT "${SPINDRIFT_TEST_ENVIRONMENT}")
+endfunction()
+
+# spindrift_test(<name> SOURCES a_test.cpp ... LINK lib ... [TIMEOUT seconds] [LABELS l ...] [PARTS <suffix>=<filter> ...])
+# One GoogleTest program, registered with ctest as spindrift_register_test says.
 function(spindrift_test name)
-  cmake_parse_arguments(ARG "" "TIMEOUT" "SOURCES;LINK;LABELS" ${ARGN})
+  cmake_parse_arguments(ARG "" "TIMEOUT" "SOURCES;LINK;LABELS;PARTS" ${ARGN})
   add_executable(${name} ${ARG_SOURCES})
   target_link_libraries(${name} PRIVATE ${ARG_LINK} spindrift_test_support)
   target_precompile_headers(${name} REUSE_FROM spindrift_test_headers)
@@ -68,13 +95,7 @@ function(spindrift_test name)
   target_compile_definitions(${name} PRIVATE SPINDRIFT_TEST_DATA="${CMAKE_SOURCE_DIR}/tests/data"
                                              SPINDRIFT_SOURCE_DIR="${CMAKE_SOURCE_DIR}")
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
-  add_test(NAME ${name} COMMAND ${name})
-  if(NOT ARG_TIMEOUT)
-    set(ARG_TIMEOUT 300)
-  endif()
-  math(EXPR timeout "${ARG_TIMEOUT} * ${SPINDRIFT_TEST_SLOWNESS}")
-  set_tests_properties(${name} PROPERTIES TIMEOUT ${timeout} LABELS "${ARG_LABELS}" ENVIRONMENT
-                                          "${SPINDRIFT_TEST_ENVIRONMENT}")
+  spindrift_register_test(${name} TIMEOUT ${ARG_TIMEOUT} LABELS ${ARG_LABELS} PARTS ${ARG_PARTS})
 endfunction()
 
 # spindrift_benchmark(<name> SOURCES a.cpp ... LINK lib ...): a program of its own in build/benchmarks, not run by ctest.

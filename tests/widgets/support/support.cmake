@@ -14,7 +14,7 @@ target_link_libraries(spindrift_widget_test_support PUBLIC spindrift_options Spi
 
 # spindrift_widget_test(<name> SOURCES ... LINK ... [TIMEOUT s])
 function(spindrift_widget_test name)
-  cmake_parse_arguments(ARG "" "TIMEOUT" "SOURCES;LINK" ${ARGN})
+  cmake_parse_arguments(ARG "" "TIMEOUT" "SOURCES;LINK;PARTS" ${ARGN})
   add_executable(${name} ${ARG_SOURCES})
   target_link_libraries(${name} PRIVATE ${ARG_LINK} spindrift_widget_test_support)
   target_precompile_headers(${name} REUSE_FROM spindrift_widget_test_headers)
@@ -23,11 +23,5 @@ function(spindrift_widget_test name)
   target_compile_definitions(${name} PRIVATE SPINDRIFT_TEST_DATA="${CMAKE_SOURCE_DIR}/tests/data"
                                              SPINDRIFT_SOURCE_DIR="${CMAKE_SOURCE_DIR}")
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
-  add_test(NAME ${name} COMMAND ${name})
-  if(NOT ARG_TIMEOUT)
-    set(ARG_TIMEOUT 300)
-  endif()
-  math(EXPR timeout "${ARG_TIMEOUT} * ${SPINDRIFT_TEST_SLOWNESS}")
-  set_tests_properties(${name} PROPERTIES TIMEOUT ${timeout} LABELS widgets ENVIRONMENT
-                                          "${SPINDRIFT_TEST_ENVIRONMENT}")
+  spindrift_register_test(${name} TIMEOUT ${ARG_TIMEOUT} LABELS widgets PARTS ${ARG_PARTS})
 endfunction()
