@@ -194,7 +194,7 @@ double objective(const ComponentData& data, const Products& products, const Para
   a.diagonal().head(s + m).array() += 1.0;
   // Readings without any noise leave nothing behind but rounding, of either sign.
   a(total - 1, total - 1) = a(total - 1, total - 1) * (1.0 + 1e-12) + 1e-9;
-  Eigen::LLT<Eigen::MatrixXd> llt(std::move(a));
+  Eigen::LLT<Eigen::MatrixXd> llt(a);
   if (llt.info() != Eigen::Success) return 1e300;
   const auto diagonal = llt.matrixLLT().diagonal();
   const double chi2 = diagonal[total - 1] * diagonal[total - 1];
