@@ -16,6 +16,7 @@
 
 #include "core/base/atomic_file.h"
 #include "core/base/error.h"
+#include "core/machine/observation.h"
 #include "tests/widgets/support/story_support.h"
 #include "widgets/commands/commands.h"
 #include "widgets/common/parts.h"
@@ -36,8 +37,13 @@ namespace {
 
 class DiscrepancyPageTest : public StoryTest {
  protected:
-  void search(Hidden hidden) {
-    open(writeStoryCampaign(folder_, hidden), StepId::Discrepancy);
+  /// `stated`: the sigma that the readings say they have, over what they scatter.
+  void search(Hidden hidden, double stated = 1.0) {
+    const std::filesystem::path campaign = writeStoryCampaign(folder_, hidden);
+    ObservationSet readings = ObservationSet::read(campaign / "observations.csv");
+    for (Observation& o : readings.rows) o.sigma *= stated;
+    readings.write(campaign / "observations.csv");
+    open(campaign, StepId::Discrepancy);
     page_ = page<DiscrepancyPage>();
     ASSERT_NE(page_, nullptr);
     EXPECT_EQ(state(), StepState::NotStarted);
@@ -201,6 +207,17 @@ TEST_F(DiscrepancyPageTest, SaysNoneWhereNothingIsMissing) {
   EXPECT_EQ(page_->story()->verdict, DiscrepancyVerdict::None);
   EXPECT_EQ(verdict(), QStringLiteral("Measured and simulated agree within the noise."));
   EXPECT_EQ(page_->where()->placeTable()->model()->rowCount(), 0);
+}
+
+TEST_F(DiscrepancyPageTest, NothingMissingInReadingsThatScatterFarMoreThanTheyStateIsNoGoodNews) {
+  search(Hidden::Nothing, 0.1);
+  EXPECT_EQ(page_->story()->verdict, DiscrepancyVerdict::None);
+  EXPECT_EQ(verdict(), QStringLiteral("Nothing stands out of the scatter of the readings, which is large."));
+  QStringList texts;
+  for (const QLabel* label : page_->findChildren<QLabel*>()) texts << label->text();
+  EXPECT_TRUE(
+      texts.join(QLatin1Char('|')).contains(QStringLiteral(" times as much as their stated σ: what is smaller")))
+      << texts.join(QLatin1Char('|')).toStdString();
 }
 
 TEST_F(DiscrepancyPageTest, LeavingAnEffectOutSearchesAgainWithoutIt) {
