@@ -15,6 +15,9 @@ foreach(language C CXX)
                                             CCACHE_BASEDIR=${CMAKE_SOURCE_DIR} CCACHE_NOHASHDIR=1 ${SPINDRIFT_CCACHE})
   endif()
 endforeach()
+# Places in messages of assertions begin at the top: no folder of the machine that built it in a program, and the same text to
+# compile in every clone.
+add_compile_options(-fmacro-prefix-map=${CMAKE_SOURCE_DIR}/=)
 # mold, where it is installed: a program with a window is linked in half a second instead of five, and there are a hundred.
 find_program(SPINDRIFT_MOLD mold)
 mark_as_advanced(SPINDRIFT_MOLD)
