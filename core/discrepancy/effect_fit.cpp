@@ -88,27 +88,48 @@ JointFit EffectSearch::refine(const std::vector<ModelTerm>& terms, int rounds) c
   std::vector<ModelTerm> current = terms;
   std::vector<Eigen::MatrixXd> x;
   for (const ModelTerm& term : current) x.push_back(problem_->projected(columns(term)));
-  const auto chi2With = [&](std::size_t changed, const Eigen::MatrixXd& replacement) {
+  // What all others are in the products does not change while one of them moves.
+  Eigen::MatrixXd others;
+  Eigen::MatrixXd gram_of_others;
+  Eigen::VectorXd b_of_others;
+  const auto holdAllBut = [&](std::size_t moving) {
     Index total = 0;
-    for (std::size_t t = 0; t < x.size(); ++t) total += t == changed ? replacement.cols() : x[t].cols();
-    Eigen::MatrixXd all(y.size(), total);
+    for (std::size_t t = 0; t < x.size(); ++t) total += t == moving ? 0 : x[t].cols();
+    others.resize(y.size(), total);
     Index at = 0;
     for (std::size_t t = 0; t < x.size(); ++t) {
-      const Eigen::MatrixXd& part = t == changed ? replacement : x[t];
-      all.middleCols(at, part.cols()) = part;
-      at += part.cols();
+      if (t == moving) continue;
+      others.middleCols(at, x[t].cols()) = x[t];
+      at += x[t].cols();
     }
-    Eigen::MatrixXd gram = all.transpose() * all;
-    const Eigen::VectorXd b = all.transpose() * y;
+    gram_of_others = others.transpose() * others;
+    b_of_others = others.transpose() * y;
+  };
+  const auto chi2With = [&](const Eigen::MatrixXd& moved) {
+    const Index held = others.cols();
+    const Index total = held + moved.cols();
+    Eigen::MatrixXd gram(total, total);
+    Eigen::VectorXd b(total);
+    gram.topLeftCorner(held, held) = gram_of_others;
+    gram.bottomLeftCorner(moved.cols(), held).noalias() = moved.transpose() * others;
+    gram.topRightCorner(held, moved.cols()) = gram.bottomLeftCorner(moved.cols(), held).transpose();
+    gram.bottomRightCorner(moved.cols(), moved.cols()).noalias() = moved.transpose() * moved;
+    b.head(held) = b_of_others;
+    b.tail(moved.cols()).noalias() = moved.transpose() * y;
     gram.diagonal() *= 1.0 + 1e-8;
     gram.diagonal().array() += 1e-12;
     const Eigen::LDLT<Eigen::MatrixXd> ldlt(gram);
     return y.squaredNorm() - b.dot(ldlt.solve(b));
   };
-  double best = x.empty() ? 0.0 : chi2With(0, x[0]);
+  double best = 0.0;
+  if (!x.empty()) {
+    holdAllBut(0);
+    best = chi2With(x[0]);
+  }
   for (int round = 0; round < rounds; ++round) {
     const double before = best;
     for (std::size_t t = 0; t < current.size(); ++t) {
+      holdAllBut(t);
       for (std::size_t p = 0; p < current[t].parameters.size(); ++p) {
         const bool lag = parameterIsLag(current[t], p);
         const auto [low, high] = parameterBounds(current[t], p);
@@ -129,7 +150,7 @@ JointFit EffectSearch::refine(const std::vector<ModelTerm>& terms, int rounds) c
               }
               if (value < low || value > high) break;
               const Eigen::MatrixXd replacement = problem_->projected(columns(trial));
-              const double chi2 = chi2With(t, replacement);
+              const double chi2 = chi2With(replacement);
               if (chi2 < best - 1e-6) {
                 best = chi2;
                 current[t] = std::move(trial);

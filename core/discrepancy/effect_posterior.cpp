@@ -73,26 +73,45 @@ Eigen::MatrixXd joined(const std::vector<Eigen::VectorXd>& columns, Index rows) 
   return out;
 }
 
+/// Columns of errors of formulas, whitened: their products, and those with what is left.
+struct ErrorProducts {
+  Eigen::MatrixXd gram;
+  Eigen::VectorXd moved;
+};
+
+/// Of the columns of `m` free of two orthonormal bases that are orthogonal to each other and to `left`.
+ErrorProducts errorProducts(const Eigen::MatrixXd& m, const Eigen::MatrixXd& nuisances, const Eigen::MatrixXd& named,
+                            const Eigen::VectorXd& left) {
+  ErrorProducts out;
+  out.gram = Eigen::MatrixXd::Zero(m.cols(), m.cols());
+  if (m.cols() == 0) return out;
+  auto lower = out.gram.selfadjointView<Eigen::Lower>();
+  lower.rankUpdate(m.transpose());
+  for (const Eigen::MatrixXd* basis : {&nuisances, &named}) {
+    if (basis->cols() == 0) continue;
+    const Eigen::MatrixXd along = m.transpose() * *basis;
+    lower.rankUpdate(along, -1.0);
+  }
+  out.gram.triangularView<Eigen::StrictlyUpper>() = out.gram.transpose();
+  out.moved = m.transpose() * left;
+  return out;
+}
+
 /// Twice the logarithm of the factor by which errors of formulas change the probability of what is left: coefficients ~
-/// N(0, 1) of the columns of `m` (whitened), of the first `always` in any case, of every further one with probability
-/// p.
-double formulaErrorGain(const Eigen::MatrixXd& m, Index always, const Eigen::VectorXd& left, double p) {
-  Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(m.cols(), m.cols());
-  gram.selfadjointView<Eigen::Lower>().rankUpdate(m.transpose());
-  gram.triangularView<Eigen::StrictlyUpper>() = gram.transpose();
-  const Eigen::VectorXd moved = m.transpose() * left;
+/// N(0, 1) of the columns, of the first `always` in any case, of every further one with probability p.
+double formulaErrorGain(const ErrorProducts& products, Index always, double p) {
   const auto gainOf = [&](const std::vector<Index>& ways) {
-    Eigen::MatrixXd a = gram(ways, ways);
+    Eigen::MatrixXd a = products.gram(ways, ways);
     a.diagonal().array() += 1.0;
     const Eigen::LLT<Eigen::MatrixXd> llt(a);
-    const Eigen::VectorXd z = llt.matrixL().solve(Eigen::VectorXd(moved(ways)));
+    const Eigen::VectorXd z = llt.matrixL().solve(Eigen::VectorXd(products.moved(ways)));
     return z.squaredNorm() - 2.0 * llt.matrixLLT().diagonal().array().log().sum();
   };
   std::vector<Index> ways(static_cast<std::size_t>(always));
   std::iota(ways.begin(), ways.end(), Index{0});
   double gain = gainOf(ways);
   double mixed = 0.0;  // of the ways that are there with probability p, over what is taken in `gain`
-  for (Index c = always; c < m.cols(); ++c) {
+  for (Index c = always; c < products.gram.cols(); ++c) {
     ways.push_back(c);
     const double with = gainOf(ways);
     const double more = with - gain;
@@ -386,9 +405,8 @@ double PosteriorSearch::evidenceOf(const JointFit& fit) const {
   const Eigen::MatrixXd elsewhere = crosstalkColumns(fit);
   Eigen::MatrixXd m(problem_->size(), here.cols() + elsewhere.cols());
   m << here, elsewhere;
-  m = problem_->projected(m);
-  m -= basis * (basis.transpose() * m);
-  return -left.squaredNorm() + formulaErrorGain(m, here.cols(), left, priors_.crosstalk) -
+  const ErrorProducts errors = errorProducts(problem_->freeOfConstants(m), problem_->nuisanceBasis(), basis, left);
+  return -left.squaredNorm() + formulaErrorGain(errors, here.cols(), priors_.crosstalk) -
          static_cast<double>(rank) * search_->logN() - priceOf(fit) - imitationPrice(fit);
 }
 

@@ -3,8 +3,6 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
-#include <Eigen/QR>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -626,7 +624,7 @@ void ResidualProblem::makeBlocks() {
   }
 }
 
-void ResidualProblem::takeDrift(const NoiseModel& drifts, const ShiftColumns& shifts, Eigen::MatrixXd& z) const {
+void ResidualProblem::takeDrift(const NoiseModel& drifts, const ShiftColumns& shifts, Eigen::MatrixXd& factor) const {
   for (auto from = shifts.begin(); from != shifts.end();) {
     const int c = from->first.first;
     const auto to = shifts.lower_bound({c + 1, 0});
@@ -638,11 +636,57 @@ void ResidualProblem::takeDrift(const NoiseModel& drifts, const ShiftColumns& sh
         times_s.push_back(epoch_time_s[static_cast<std::size_t>(at->first.second)]);
         columns.push_back(at->second);
       }
-      const Eigen::MatrixXd independent = z(Eigen::all, columns);
-      z(Eigen::all, columns) = independent * shiftFactor(times_s, n.drift_part, n.drift_time_s);
+      factor(columns, columns) = shiftFactor(times_s, n.drift_part, n.drift_time_s);
     }
     from = to;
   }
+}
+
+void ResidualProblem::LowRank::takeOutOf(Eigen::Ref<Eigen::MatrixXd> x) const {
+  if (columns.cols() == 0) return;
+  const Eigen::MatrixXd dots = columns.transpose() * x;
+  const Eigen::MatrixXd part = weight * dots;
+  x.noalias() -= columns * part;
+}
+
+ResidualProblem::LowRank ResidualProblem::shiftsOf(std::size_t d, const NoiseModel& drifts) const {
+  const Domain& domain = domains_[d];
+  ShiftColumns shifts;
+  for (Index u = domain.from; u < domain.from + domain.count; ++u) {
+    const Component c = component[static_cast<std::size_t>(u)];
+    if (!(noise.of(c).common > 0.0)) continue;
+    shifts.try_emplace({static_cast<int>(c), epoch[static_cast<std::size_t>(u)]}, static_cast<Index>(shifts.size()));
+  }
+  std::vector<Index> factors;
+  for (Index k = 0; k < wide_.cols(); ++k)
+    if (!wide_.col(k).segment(domain.from, domain.count).isZero(0.0)) factors.push_back(k);
+  if (shifts.empty() && factors.empty()) return {};
+  const auto shift_count = static_cast<Index>(shifts.size());
+  Eigen::MatrixXd z = Eigen::MatrixXd::Zero(domain.count, shift_count + static_cast<Index>(factors.size()));
+  for (Index u = domain.from; u < domain.from + domain.count; ++u) {
+    const Component c = component[static_cast<std::size_t>(u)];
+    const auto at = shifts.find({static_cast<int>(c), epoch[static_cast<std::size_t>(u)]});
+    if (at != shifts.end()) z(u - domain.from, at->second) = drifts.of(c).common;
+    const double load_scale = noise.of(c).scale * std::sqrt(1.0 - slowPart(u));
+    for (std::size_t k = 0; k < factors.size(); ++k)
+      z(u - domain.from, shift_count + static_cast<Index>(k)) = load_scale * wide_(u, factors[k]);
+  }
+  whitenOwn(d, z);
+  Eigen::MatrixXd factor = Eigen::MatrixXd::Identity(z.cols(), z.cols());
+  takeDrift(drifts, shifts, factor);
+  LowRank out;
+  out.columns = z.sparseView();
+  // z factor = U sqrt(lambda) V'; (1 + lambda)^(-1/2) along U.
+  const Eigen::MatrixXd gram(Eigen::SparseMatrix<double>(out.columns.transpose() * out.columns));
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(factor.transpose() * gram * factor);
+  const Eigen::MatrixXd turned = factor * eigen.eigenvectors();
+  Eigen::VectorXd part(z.cols());
+  for (Index k = 0; k < z.cols(); ++k) {
+    const double lambda = eigen.eigenvalues()[k];
+    part[k] = lambda > 1e-9 ? (1.0 - 1.0 / std::sqrt(1.0 + lambda)) / lambda : 0.0;
+  }
+  out.weight = turned * part.asDiagonal() * turned.transpose();
+  return out;
 }
 
 void ResidualProblem::setNoise(const NoiseModel& model) {
@@ -650,71 +694,51 @@ void ResidualProblem::setNoise(const NoiseModel& model) {
   makeBlocks();
   const NoiseModel drifts = asInstrumentsDrift(*this, noise);
   domain_noise_.assign(domains_.size(), {});
-  constant_count_ = 0;
   for (std::size_t d = 0; d < domains_.size(); ++d) {
     const Domain& domain = domains_[d];
     DomainNoise& n = domain_noise_[d];
-    // Whitened shifts of the states and factors of many series, orthonormal.
-    ShiftColumns shifts;
-    for (Index u = domain.from; u < domain.from + domain.count; ++u) {
-      const Component c = component[static_cast<std::size_t>(u)];
-      if (!(noise.of(c).common > 0.0)) continue;
-      shifts.try_emplace({static_cast<int>(c), epoch[static_cast<std::size_t>(u)]}, static_cast<Index>(shifts.size()));
-    }
-    std::vector<Index> factors;
-    for (Index k = 0; k < wide_.cols(); ++k)
-      if (!wide_.col(k).segment(domain.from, domain.count).isZero(0.0)) factors.push_back(k);
-    if (!shifts.empty() || !factors.empty()) {
-      const auto shift_count = static_cast<Index>(shifts.size());
-      Eigen::MatrixXd z = Eigen::MatrixXd::Zero(domain.count, shift_count + static_cast<Index>(factors.size()));
-      for (Index u = domain.from; u < domain.from + domain.count; ++u) {
-        const Component c = component[static_cast<std::size_t>(u)];
-        const auto at = shifts.find({static_cast<int>(c), epoch[static_cast<std::size_t>(u)]});
-        if (at != shifts.end()) z(u - domain.from, at->second) = drifts.of(c).common;
-        const double load_scale = noise.of(c).scale * std::sqrt(1.0 - slowPart(u));
-        for (std::size_t k = 0; k < factors.size(); ++k)
-          z(u - domain.from, shift_count + static_cast<Index>(k)) = load_scale * wide_(u, factors[k]);
-      }
-      takeDrift(drifts, shifts, z);
-      whitenDomain(d, z);
-      const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(z.transpose() * z);
-      Eigen::MatrixXd basis(domain.count, z.cols());
-      Eigen::VectorXd part(z.cols());
-      Index used = 0;
-      for (Index k = 0; k < z.cols(); ++k) {
-        const double lambda = eigen.eigenvalues()[k];
-        if (!(lambda > 1e-9)) continue;
-        basis.col(used) = z * eigen.eigenvectors().col(k) / std::sqrt(lambda);
-        part[used++] = 1.0 - 1.0 / std::sqrt(1.0 + lambda);
-      }
-      n.shift_basis = basis.leftCols(used);
-      n.shift_part = part.head(used);
-    }
+    n.shifts = shiftsOf(d, drifts);
+    n.shifts_and_constants = n.shifts;
     if (!free_constants) continue;
-    Eigen::MatrixXd ones = Eigen::MatrixXd::Zero(domain.count, 0);
     std::vector<std::pair<Index, Index>> ranges;
     for (int s = 0; s < seriesCount(); ++s) {
       const Index from = series_begin[static_cast<std::size_t>(s)];
       if (from < domain.from || from >= domain.from + domain.count) continue;
       ranges.emplace_back(from - domain.from, series_begin[static_cast<std::size_t>(s) + 1] - from);
     }
-    ones = Eigen::MatrixXd::Zero(domain.count, static_cast<Index>(ranges.size()));
+    const auto count = static_cast<Index>(ranges.size());
+    Eigen::MatrixXd ones = Eigen::MatrixXd::Zero(domain.count, count);
     for (std::size_t s = 0; s < ranges.size(); ++s) {
       ones.col(static_cast<Index>(s)).segment(ranges[s].first, ranges[s].second).setOnes();
     }
-    whitenDomain(d, ones);
-    const Eigen::VectorXd norm = ones.colwise().norm();
-    for (Index k = 0; k < ones.cols(); ++k) ones.col(k) /= norm[k];
-    const Eigen::HouseholderQR<Eigen::MatrixXd> qr(ones);
-    n.constants = qr.householderQ() * Eigen::MatrixXd::Identity(domain.count, std::min(ones.cols(), domain.count));
-    constant_count_ += n.constants.cols();
+    whitenOwn(d, ones);
+    ones.colwise().normalize();
+    n.constant_count = count;
+    // B = (Z, ones): shifts leave H = 1 - Z M Z', the constants become H ones = B K, and without them stays
+    // (1 - B K N (B K)') H = 1 - B G B' with N = ((B K)' B K)^-1.
+    const Index shifts = n.shifts.columns.cols();
+    Eigen::SparseMatrix<double>& all = n.shifts_and_constants.columns;
+    Eigen::MatrixXd dense(domain.count, shifts + count);
+    if (shifts > 0) dense.leftCols(shifts) = n.shifts.columns;
+    dense.rightCols(count) = ones;
+    all = dense.sparseView();
+    const Eigen::MatrixXd gram(Eigen::SparseMatrix<double>(all.transpose() * all));
+    Eigen::MatrixXd k = Eigen::MatrixXd::Zero(shifts + count, count);
+    k.bottomRows(count).setIdentity();
+    k.topRows(shifts) = -n.shifts.weight * gram.topRightCorner(shifts, count);
+    const Eigen::MatrixXd of_constants = k.transpose() * gram;
+    const Eigen::MatrixXd inverse = (of_constants * k).ldlt().solve(Eigen::MatrixXd::Identity(count, count));
+    Eigen::MatrixXd& weight = n.shifts_and_constants.weight;
+    Eigen::MatrixXd left = k.transpose();
+    left.leftCols(shifts) -= of_constants.leftCols(shifts) * n.shifts.weight;
+    weight = k * (inverse * left);
+    weight.topLeftCorner(shifts, shifts) += n.shifts.weight;
   }
   setNuisances(nuisances_);
 }
 
-void ResidualProblem::whitenDomain(std::size_t d, Eigen::Ref<Eigen::MatrixXd> rows) const {
+void ResidualProblem::whitenOwn(std::size_t d, Eigen::Ref<Eigen::MatrixXd> rows) const {
   const Domain& domain = domains_[d];
-  const DomainNoise& n = domain_noise_[d];
   // Blocks first from the raw rows; everything else is diagonal.
   std::vector<Eigen::MatrixXd> block_rows;
   for (const Block& b : blocks_[d]) {
@@ -722,29 +746,25 @@ void ResidualProblem::whitenDomain(std::size_t d, Eigen::Ref<Eigen::MatrixXd> ro
     for (Index i = 0; i < part.rows(); ++i) part.row(i) = rows.row(b.units[static_cast<std::size_t>(i)] - domain.from);
     block_rows.emplace_back(b.whitener.triangularView<Eigen::Lower>() * part);
   }
-  rows = diagonal_whitener_.segment(domain.from, domain.count).asDiagonal() * rows;
+  rows.array().colwise() *= diagonal_whitener_.segment(domain.from, domain.count).array();
   for (std::size_t k = 0; k < block_rows.size(); ++k) {
     const Block& b = blocks_[d][k];
     for (Index i = 0; i < block_rows[k].rows(); ++i) {
       rows.row(b.units[static_cast<std::size_t>(i)] - domain.from) = block_rows[k].row(i);
     }
   }
-  if (n.shift_basis.cols() > 0) {
-    Eigen::MatrixXd dots = n.shift_basis.transpose() * rows;
-    dots = n.shift_part.asDiagonal() * dots;
-    rows.noalias() -= n.shift_basis * dots;
-  }
+}
+
+void ResidualProblem::whitenDomain(std::size_t d, Eigen::Ref<Eigen::MatrixXd> rows) const {
+  whitenOwn(d, rows);
+  domain_noise_[d].shifts.takeOutOf(rows);
 }
 
 Eigen::MatrixXd ResidualProblem::withoutConstants(std::size_t d, const Eigen::MatrixXd& columns) const {
   Eigen::MatrixXd out = columns;
   if (out.cols() == 0) return out;
-  whitenDomain(d, out);
-  const Eigen::MatrixXd& constants = domain_noise_[d].constants;
-  if (constants.cols() > 0) {
-    const Eigen::MatrixXd dots = constants.transpose() * out;
-    out.noalias() -= constants * dots;
-  }
+  whitenOwn(d, out);
+  domain_noise_[d].shifts_and_constants.takeOutOf(out);
   return out;
 }
 
@@ -773,22 +793,8 @@ void ResidualProblem::setNuisances(const std::vector<NuisanceColumn>& columns) {
       std::count_if(columns.begin(), columns.end(), [](const NuisanceColumn& c) { return c.prior_sigma > 0.0; });
   Eigen::MatrixXd raw(n, static_cast<Index>(columns.size()));
   for (std::size_t c = 0; c < columns.size(); ++c) raw.col(static_cast<Index>(c)) = columns[c].values;
-  Eigen::MatrixXd augmented = Eigen::MatrixXd::Zero(n + prior_rows_, raw.cols());
-  Eigen::VectorXd before = Eigen::VectorXd::Zero(raw.cols());
-  if (raw.cols() > 0) {
-    const Eigen::MatrixXd white = whitened(raw);
-    before = white.colwise().norm();
-    for (std::size_t d = 0; d < domains_.size(); ++d) {
-      const Domain& domain = domains_[d];
-      auto part = augmented.middleRows(domain.from, domain.count);
-      part = white.middleRows(domain.from, domain.count);
-      const Eigen::MatrixXd& constants = domain_noise_[d].constants;
-      if (constants.cols() > 0) {
-        const Eigen::MatrixXd dots = constants.transpose() * part;
-        part.noalias() -= constants * dots;
-      }
-    }
-  }
+  Eigen::MatrixXd augmented = freeOfConstants(raw);
+  Eigen::VectorXd before = whitened(raw).colwise().norm();
   Index prior = 0;
   for (std::size_t c = 0; c < columns.size(); ++c) {
     if (!(columns[c].prior_sigma > 0.0)) continue;
@@ -814,7 +820,7 @@ void ResidualProblem::setNuisances(const std::vector<NuisanceColumn>& columns) {
   projected_y_ = projected(y);
 }
 
-Eigen::MatrixXd ResidualProblem::projected(const Eigen::MatrixXd& columns) const {
+Eigen::MatrixXd ResidualProblem::freeOfConstants(const Eigen::MatrixXd& columns) const {
   Eigen::MatrixXd out = Eigen::MatrixXd::Zero(size() + prior_rows_, columns.cols());
   if (columns.cols() == 0) return out;
   for (std::size_t d = 0; d < domains_.size(); ++d) {
@@ -823,7 +829,12 @@ Eigen::MatrixXd ResidualProblem::projected(const Eigen::MatrixXd& columns) const
     if (rows.isZero(0.0)) continue;
     out.middleRows(domain.from, domain.count) = withoutConstants(d, rows);
   }
-  if (q_.cols() > 0) {
+  return out;
+}
+
+Eigen::MatrixXd ResidualProblem::projected(const Eigen::MatrixXd& columns) const {
+  Eigen::MatrixXd out = freeOfConstants(columns);
+  if (q_.cols() > 0 && out.cols() > 0) {
     const Eigen::MatrixXd dots = q_.transpose() * out;
     out.noalias() -= q_ * dots;
   }
@@ -859,7 +870,9 @@ ResidualProblem::NuisancePart ResidualProblem::nuisancePart(const Eigen::VectorX
 }
 
 int ResidualProblem::degreesOfFreedom() const noexcept {
-  return static_cast<int>(size() + prior_rows_ - q_.cols() - constant_count_);
+  Index free = size() + prior_rows_ - q_.cols();
+  for (const DomainNoise& n : domain_noise_) free -= n.constant_count;
+  return static_cast<int>(free);
 }
 
 }  // namespace spindrift

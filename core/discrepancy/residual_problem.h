@@ -21,6 +21,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/SparseCore>
 #include <array>
 #include <map>
 #include <span>
@@ -138,7 +139,9 @@ class ResidualProblem {
   /// what their freedom costs in evidence, to compare one set of priors with another under the same noise.
   [[nodiscard]] double nuisanceLogDeterminant() const noexcept { return nuisance_log_det_; }
 
-  /// Whitened, augmented and orthogonal to the nuisances.
+  /// Whitened, augmented and orthogonal to the constants.
+  [[nodiscard]] Eigen::MatrixXd freeOfConstants(const Eigen::MatrixXd& columns) const;
+  /// Whitened, augmented and orthogonal to all nuisances.
   [[nodiscard]] Eigen::MatrixXd projected(const Eigen::MatrixXd& columns) const;
   [[nodiscard]] const Eigen::VectorXd& projectedResidual() const noexcept { return projected_y_; }
   [[nodiscard]] Eigen::MatrixXd whitened(const Eigen::MatrixXd& columns) const;
@@ -191,10 +194,17 @@ class ResidualProblem {
     std::vector<Eigen::Index> units;
     Eigen::MatrixXd whitener;  ///< inverse of the lower Cholesky factor; empty: diagonal
   };
+  /// x - columns weight columns' x: a part of low rank is taken out of x. Every row of the columns has few entries, for
+  /// a reading belongs to one state and one series.
+  struct LowRank {
+    Eigen::SparseMatrix<double> columns;
+    Eigen::MatrixXd weight;
+    void takeOutOf(Eigen::Ref<Eigen::MatrixXd> x) const;
+  };
   struct DomainNoise {
-    Eigen::MatrixXd shift_basis;  ///< orthonormal, whitened shifts
-    Eigen::VectorXd shift_part;   ///< 1 - 1 / sqrt(1 + lambda)
-    Eigen::MatrixXd constants;    ///< orthonormal basis of the whitened constants
+    LowRank shifts;                ///< what shifts of states and factors of many series add to the own noise
+    LowRank shifts_and_constants;  ///< the same, and then the whitened constants
+    Eigen::Index constant_count = 0;
   };
   /// Loads of one cause in order of units, um or urad.
   struct UnitLoad {
@@ -216,8 +226,13 @@ class ResidualProblem {
   void makeBlocks();
   /// Part of the stated noise that follows itself in time (a), 0 ... 1.
   [[nodiscard]] double slowPart(Eigen::Index unit) const;
-  /// Shifts of states that are independent in `z`, each of its standard deviation, as they follow each other in time.
-  void takeDrift(const NoiseModel& drifts, const ShiftColumns& shifts, Eigen::MatrixXd& z) const;
+  /// How the shifts of states follow each other in time: they are the factor times independent ones (its first rows and
+  /// columns; identity where they do not).
+  void takeDrift(const NoiseModel& drifts, const ShiftColumns& shifts, Eigen::MatrixXd& factor) const;
+  /// Shifts of the states and factors of many series in one domain.
+  [[nodiscard]] LowRank shiftsOf(std::size_t domain, const NoiseModel& drifts) const;
+  /// By the own noise alone, without the shifts.
+  void whitenOwn(std::size_t domain, Eigen::Ref<Eigen::MatrixXd> rows) const;
   void whitenDomain(std::size_t domain, Eigen::Ref<Eigen::MatrixXd> rows) const;
   const std::vector<Observation>* observations_ = nullptr;  ///< of the input, which outlives the problem
   /// What a unit takes of the value at a node: neighbours that were merged have one time, or a few.
@@ -238,7 +253,6 @@ class ResidualProblem {
   Eigen::VectorXd diagonal_whitener_;
   std::vector<NuisanceColumn> nuisances_;
   Eigen::Index prior_rows_ = 0;
-  Eigen::Index constant_count_ = 0;
   double nuisance_log_det_ = 0.0;
   Eigen::MatrixXd q_;  ///< orthonormal basis of the nuisances, augmented
   Eigen::VectorXd projected_y_;
