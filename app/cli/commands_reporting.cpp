@@ -10,6 +10,7 @@
 #include "core/base/atomic_file.h"
 #include "core/base/error.h"
 #include "core/base/json_reader.h"
+#include "core/reporting/report_file.h"
 #include "core/workflows/file_reference.h"
 #include "core/workflows/log_campaign.h"
 #include "core/workflows/manual.h"
@@ -55,18 +56,9 @@ Report reportOf(const ReportArguments& arguments, JobContext& job) {
   return reportOfCampaign(Campaign::read(folder.path() / "campaign"), arguments.options, job);
 }
 
-/// Whether a report goes to pages; throws InputError for an ending that is neither.
-bool isPdf(const std::string& file) {
-  const std::string ending = std::filesystem::path(file).extension().string();
-  if (ending != ".pdf" && ending != ".html" && ending != ".htm")
-    throw InputError({file, ""}, "is neither HTML nor PDF by its ending; allowed: a name that ends in .html or .pdf.");
-  return ending == ".pdf";
-}
-
 CommandResult writeReport(const Report& report, const std::string& file, JobContext& job) {
-  const std::string bytes = isPdf(file) ? pdfOf(report, job).bytes : htmlOf(report);
-  writeFileAtomically(file, bytes);
-  return {{{"report", file}, {"bytes", bytes.size()}}, fmt::format("written: {}\n", file), Done};
+  const std::size_t bytes = writeReportFile(report, file, job);
+  return {{{"report", file}, {"bytes", bytes}}, fmt::format("written: {}\n", file), Done};
 }
 
 CommandResult listFiles(const std::string& id) {
@@ -116,7 +108,7 @@ void addReportingCommands(CLI::App& app, CommandLine& line) {
       app, line, "report",
       "Write the whole evaluation of a campaign, or of a log alone, as one self-contained file: HTML, or pages as PDF",
       [arguments](JobContext& job) {
-        const bool pdf = isPdf(arguments->out);
+        const bool pdf = isReportPdf(arguments->out);
         if (isSession(arguments->campaign)) return reportInSession(*arguments, pdf, job);
         if (!arguments->thermal.empty()) {
           const JsonNode result = JsonNode::read(arguments->thermal);

@@ -34,6 +34,7 @@
 #include "widgets/shell/demo.h"
 #include "widgets/shell/diagnostics.h"
 #include "widgets/shell/main_window.h"
+#include "widgets/shell/manual_window.h"
 #include "widgets/shell/self_test.h"
 #include "widgets/shell/tour.h"
 #include "widgets/theme/system_look.h"
@@ -138,7 +139,7 @@ std::string wrongUsage(const QCommandLineParser& parser) {
     return "--size " + size.toStdString() + " is not allowed; allowed: 1024x700 to 7680x4320, together with --tour.";
   }
   const bool unattended = parser.isSet(QStringLiteral("tour")) || parser.isSet(QStringLiteral("self-test")) ||
-                          parser.isSet(QStringLiteral("startup-time"));
+                          parser.isSet(QStringLiteral("startup-time")) || parser.isSet(QStringLiteral("manual"));
   if (parser.isSet(QStringLiteral("record")) && unattended) {
     return "--record is allowed only where somebody uses the window.";
   }
@@ -287,13 +288,19 @@ int run(int argc, char** argv) {
                                   "Write what is done at the window, with what is typed, to FILE, so that others can "
                                   "do it again (JSON)."),
       QStringLiteral("FILE"));
+  const QCommandLineOption manual(
+      QStringLiteral("manual"),
+      QCoreApplication::translate("main",
+                                  "Write the manual in the language of --language to FILE, by its ending .html "
+                                  "or .pdf, and end."),
+      QStringLiteral("FILE"));
   const QCommandLineOption reference(
       QStringLiteral("reference"),
       QCoreApplication::translate(
           "main", "Print the reference of the options: a man page, the completion of bash, or Markdown."),
       QStringLiteral("man|bash|markdown"));
   const QList<QCommandLineOption> options = {demo,      tour, size,       theme_option, language, scale,
-                                             self_test, json, start_time, record,       reference};
+                                             self_test, json, start_time, record,       manual,   reference};
   parser.addOptions(options);
   if (!parser.parse(application.arguments())) {
     return refused(parser.errorText().toStdString());
@@ -316,7 +323,7 @@ int run(int argc, char** argv) {
   if (const std::string wrong = wrongUsage(parser); !wrong.empty()) return refused(wrong);
   // The user's sessions, recent folders and settings are none of the business of tour and self-test.
   QTemporaryDir scratch;
-  if (parser.isSet(tour) || parser.isSet(self_test) || parser.isSet(start_time)) {
+  if (parser.isSet(tour) || parser.isSet(self_test) || parser.isSet(start_time) || parser.isSet(manual)) {
     QStandardPaths::setTestModeEnabled(true);
     QCoreApplication::setOrganizationName(QStringLiteral("spindrift-unattended"));
     qputenv("SPINDRIFT_SESSIONS", scratch.filePath(QStringLiteral("sessions")).toUtf8());
@@ -326,10 +333,14 @@ int run(int argc, char** argv) {
   if (!data.isEmpty()) spindrift::startLogFile((data + QStringLiteral("/spindrift.log")).toStdString());
 
   // Pictures of a tour and what a self-test says are the same everywhere, unless a language is asked for.
-  const bool unattended_run = parser.isSet(tour) || parser.isSet(self_test);
+  const bool unattended_run = parser.isSet(tour) || parser.isSet(self_test) || parser.isSet(manual);
   applyLanguage(parser.isSet(language) ? parser.value(language)
                 : unattended_run       ? QStringLiteral("en")
                                        : preferences().language);
+  if (parser.isSet(manual)) {
+    writeManual(parser.value(manual).toStdString());
+    return exit_done;
+  }
   const QString kind = parser.value(theme_option);
   (void)SystemLook::instance();  // sees the colours of the platform before they are ours
   ThemeKind look = kind == QLatin1String("dark") ? ThemeKind::Dark : ThemeKind::Light;

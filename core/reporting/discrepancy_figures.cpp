@@ -14,7 +14,36 @@
 #include "core/reporting/report_wording.h"
 
 namespace spindrift {
-namespace {}  // namespace
+namespace {
+
+/// Residuals of a component over time before and after; nothing where it was not measured.
+std::optional<StackedPlot> timeHistory(const std::vector<DiscrepancyReportRow>& rows, Component component,
+                                       std::string_view completed) {
+  PlotSeries before{"measured minus simulation", {}, {}, {}, SeriesStyle::Points};
+  PlotSeries after{fmt::format("measured minus {}", completed), {}, {}, {}, SeriesStyle::Points};
+  after.marker = PlotMarker::Square;
+  double holdout_from = std::nan("");
+  double last = 0.0;
+  for (const DiscrepancyReportRow& row : rows) {
+    if (row.component != component || !std::isfinite(row.before)) continue;
+    const double hours = row.time_s / seconds_per_hour;
+    before.x.push_back(hours);
+    before.y.push_back(row.before);
+    after.x.push_back(hours);
+    after.y.push_back(row.after);
+    last = std::max(last, hours);
+    if (row.held_out && !(holdout_from <= hours)) holdout_from = hours;
+  }
+  if (before.x.empty()) return std::nullopt;
+  PlotOptions options{.title = std::string(toString(component)),
+                      .y_label = fmt::format("{} / {}", toString(component), printedUnitOf(component)),
+                      .width_px = 860,
+                      .height_px = 190};
+  if (std::isfinite(holdout_from)) options.ranges.push_back({holdout_from, last, "held out"});
+  return StackedPlot{{std::move(before), std::move(after)}, std::move(options)};
+}
+
+}  // namespace
 
 std::optional<std::array<Field, 2>> discrepancyMaps(const std::vector<DiscrepancyReportRow>& data, FieldGrid table,
                                                     double& time_s) {
@@ -66,30 +95,17 @@ std::optional<std::array<Field, 2>> discrepancyMaps(const std::vector<Discrepanc
 }
 
 void addTimeHistories(Report& document, const std::vector<DiscrepancyReportRow>& rows, std::string_view completed) {
-  for (const Component component : all_components) {
-    PlotSeries before{"measured minus simulation", {}, {}, {}, SeriesStyle::Points};
-    PlotSeries after{fmt::format("measured minus {}", completed), {}, {}, {}, SeriesStyle::Points};
-    double holdout_from = std::nan("");
-    double last = 0.0;
-    for (const DiscrepancyReportRow& row : rows) {
-      if (row.component != component || !std::isfinite(row.before)) continue;
-      const double hours = row.time_s / seconds_per_hour;
-      before.x.push_back(hours);
-      before.y.push_back(row.before);
-      after.x.push_back(hours);
-      after.y.push_back(row.after);
-      last = std::max(last, hours);
-      if (row.held_out && !(holdout_from <= hours)) holdout_from = hours;
+  for (const bool angles : {false, true}) {
+    std::vector<StackedPlot> plots;
+    for (const Component component : all_components) {
+      if (isRotation(component) != angles) continue;
+      if (auto plot = timeHistory(rows, component, completed)) plots.push_back(std::move(*plot));
     }
-    if (before.x.empty()) continue;
-    PlotOptions options{.title = std::string(toString(component)),
-                        .x_label = "time / h",
-                        .y_label = fmt::format("{} / {}", toString(component), printedUnitOf(component)),
-                        .width_px = 860,
-                        .height_px = 240};
-    if (std::isfinite(holdout_from)) options.ranges.push_back({holdout_from, last, "held out"});
-    document.figure(plotPicture({before, after}, options),
-                    fmt::format("{} of all points over time, before and after", toString(component)));
+    if (plots.empty()) continue;
+    plots.back().options.x_label = "time / h";
+    plots.back().options.height_px += 30;
+    document.figure(plotStack(plots), angles ? "Rotations of all points over time, before and after"
+                                             : "Displacements of all points over time, before and after");
   }
 }
 

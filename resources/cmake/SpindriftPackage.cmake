@@ -60,6 +60,17 @@ foreach(ending html pdf)
   list(APPEND package_files ${manual})
   install(FILES ${manual} DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/spindrift)
 endforeach()
+# In other languages the window's program writes it, whose catalogues it takes.
+if(TARGET spindrift)
+  foreach(ending html pdf)
+    set(manual ${package_folder}/manual-de.${ending})
+    add_custom_command(
+      OUTPUT ${manual} COMMAND ${CMAKE_COMMAND} -E env QT_QPA_PLATFORM=offscreen HOME=${package_folder}/home
+                               $<TARGET_FILE:spindrift> --language de --manual ${manual} DEPENDS spindrift VERBATIM)
+    list(APPEND package_files ${manual})
+    install(FILES ${manual} DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/spindrift)
+  endforeach()
+endif()
 add_custom_target(spindrift_package_files ALL DEPENDS ${package_files})
 
 # What carries a date is written when it is installed: of the last commit, not of the last configuring.

@@ -10837,10 +10837,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>{} Beobachtungen von {} Punkten in {} Zuständen. Abweichung = Istposition minus Sollposition des Werkzeugs gegenüber dem Tisch, bis auf eine Konstante je Punkt und Komponente; gezeigt ist die Änderung gegenüber dem ersten Messwert jedes Punkts.</translation>
     </message>
     <message>
-        <source>{} of all points over time, before and after</source>
-        <translation>{} aller Punkte über der Zeit, vorher und nachher</translation>
-    </message>
-    <message>
         <source>{} of {} from its first reading, all on one scale; bands: two standard uncertainties</source>
         <translation>{} von {} gegenüber dem ersten Messwert, alle in einem Maßstab; Bänder: zwei Standardunsicherheiten</translation>
     </message>
@@ -11544,6 +11540,18 @@ endgültig fehlgeschlagen: {}</translation>
         <source>Nothing stands out of the scatter, but the readings of {} scatter {:.0f} times as much as their stated sigma: what is smaller would not show.</source>
         <translation>Nichts hebt sich von der Streuung ab, aber die Messwerte von {} streuen {:.0f}-mal so stark wie ihr angegebenes Sigma: Was kleiner ist, fiele nicht auf.</translation>
     </message>
+    <message>
+        <source>Displacements of all points over time, before and after</source>
+        <translation>Verschiebungen aller Punkte über der Zeit, vorher und nachher</translation>
+    </message>
+    <message>
+        <source>Rotations of all points over time, before and after</source>
+        <translation>Drehungen aller Punkte über der Zeit, vorher und nachher</translation>
+    </message>
+    <message>
+        <source>is neither HTML nor PDF by its ending; allowed: a name that ends in .html or .pdf.</source>
+        <translation>ist nach seiner Endung weder HTML noch PDF; erlaubt: ein Name, der auf .html oder .pdf endet.</translation>
+    </message>
 </context>
 <context>
     <name>help</name>
@@ -12161,6 +12169,10 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>Write what is done at the window, with what is typed, to FILE, so that others can do it again (JSON).</source>
         <translation>Nach FILE schreiben, was am Fenster getan und eingegeben wird, sodass andere es wiederholen können (JSON).</translation>
+    </message>
+    <message>
+        <source>Write the manual in the language of --language to FILE, by its ending .html or .pdf, and end.</source>
+        <translation>Das Handbuch in der Sprache von --language in FILE schreiben, je nach Endung .html oder .pdf, und beenden.</translation>
     </message>
 </context>
 <context>

@@ -10,6 +10,7 @@
 #include <set>
 
 #include "tests/package/shell.h"
+#include "tests/support/source_folder.h"
 #include "tests/support/temp_folder.h"
 
 namespace spindrift::testing {
@@ -72,7 +73,7 @@ TEST_F(Package, IsTheSameTwice) {
     EXPECT_EQ(linesIn(dates).size(), 1u) << dates;  // one moment, one owner
     EXPECT_THAT(dates, HasSubstr("root/root"));
     const ShellOutcome commit = shell(fmt::format(
-        "TZ=UTC git -C {} log -1 --date=format-local:'%Y-%m-%d %H:%M:%S' --format=%cd", SPINDRIFT_SOURCE_DIR));
+        "TZ=UTC git -C {} log -1 --date=format-local:'%Y-%m-%d %H:%M:%S' --format=%cd", sourceFolder().string()));
     if (commit.status == 0) {
       EXPECT_THAT(dates, HasSubstr(commit.output.substr(0, commit.output.size() - 1)));
     }
@@ -98,6 +99,8 @@ TEST_F(Package, HoldsWhatADesktopAsksFor) {
                                      "usr/share/spindrift/scenarios/fiducials.json",
                                      "usr/share/doc/spindrift/manual.html",
                                      "usr/share/doc/spindrift/manual.pdf",
+                                     "usr/share/doc/spindrift/manual-de.html",
+                                     "usr/share/doc/spindrift/manual-de.pdf",
                                      "usr/include/spindrift/compensator.h"};
   for (const int size : {16, 22, 24, 32, 48, 64, 128, 256, 512})
     wanted.push_back(fmt::format("usr/share/icons/hicolor/{0}x{0}/apps/spindrift.png", size));
@@ -173,6 +176,8 @@ TEST_F(Package, RunsFromAnEmptyRoot) {
   const std::string manual = (*folder_ / "manual.pdf").string();
   (void)outputOf(
       fmt::format("{0} manual --out {1} && cmp {1} {2}/usr/share/doc/spindrift/manual.pdf", cli, manual, root()));
+  (void)outputOf(fmt::format("{0} --language de --manual {1} && cmp {1} {2}/usr/share/doc/spindrift/manual-de.pdf",
+                             window, manual, root()));
   // A scenario of the package becomes a campaign, the campaign a model that knows its noise.
   const std::string campaign = (*folder_ / "campaign").string();
   (void)outputOf(

@@ -50,6 +50,10 @@ void MainWindow::openManual(const QString& file) {
 }
 
 void MainWindow::openTranslatedManual() {
+  if (const QString brought = manualFile(currentLanguage()); !brought.isEmpty()) {
+    openManual(brought);
+    return;
+  }
   Job job;
   job.title = tr("Setting the manual");
   job.queue = JobQueue::Display;
@@ -191,8 +195,9 @@ void MainWindow::buildMenu() {
   help_action_->setChecked(QSettings().value(QStringLiteral("help"), false).toBool());
   const bool translated = offeredReportLanguage() && !manualChapters(offeredReportLanguage()->code).empty();
   add(help, tr("&Manual …"), "note", QKeySequence(Qt::SHIFT | Qt::Key_F1),
-      [this, translated] { translated ? openTranslatedManual() : openManual(manualFile()); });
-  if (translated) add(help, tr("Manual in En&glish …"), "note", {}, [this] { openManual(manualFile()); });
+      [this, translated] { translated ? openTranslatedManual() : openManual(manualFile(QStringLiteral("en"))); });
+  if (translated)
+    add(help, tr("Manual in En&glish …"), "note", {}, [this] { openManual(manualFile(QStringLiteral("en"))); });
   add(help, tr("What's &new …"), "info", {}, [this] { showNews(); });
   help->addSeparator();
   add(help, tr("&What if …"), "model", QKeySequence(tr("Ctrl+Shift+W")), [this] { openWhatIf(); });

@@ -14,6 +14,7 @@
 
 #include "core/base/atomic_file.h"
 #include "core/base/error.h"
+#include "core/reporting/report_file.h"
 #include "core/reporting/report_language.h"
 #include "core/workflows/manual.h"
 #include "widgets/common/languages.h"
@@ -21,9 +22,11 @@
 
 namespace spindrift::gui {
 
-QString manualFile() {
-  for (const char* place : {"/../share/doc/spindrift/manual.pdf", "/../package/manual.pdf"}) {
-    const QFileInfo file(QCoreApplication::applicationDirPath() + QLatin1String(place));
+QString manualFile(const QString& language) {
+  const QString name =
+      language == QLatin1String("en") ? QStringLiteral("manual.pdf") : QStringLiteral("manual-%1.pdf").arg(language);
+  for (const char* place : {"/../share/doc/spindrift/", "/../package/"}) {
+    const QFileInfo file(QCoreApplication::applicationDirPath() + QLatin1String(place) + name);
     if (file.isFile()) return file.canonicalFilePath();
   }
   return {};
@@ -42,6 +45,17 @@ void writeTranslatedManual(const QString& file, const JobContext& job) {
     return;
   QDir().mkpath(QFileInfo(file).path());
   writeFileAtomically(file.toStdString(), pdfOf(manualIn(*language), job).bytes);
+}
+
+void writeManual(const std::string& file) {
+  (void)isReportPdf(file);
+  const std::optional<ReportLanguage>& language = offeredReportLanguage();
+  if (!language)
+    throw InputError(
+        {file, ""},
+        "would be the English manual, which ends with all commands; it is written by spindrift-cli manual --out "
+        "FILE. Allowed here: another language, with --language.");
+  (void)writeReportFile(manualIn(*language), file);
 }
 
 ManualWindow::ManualWindow(const QString& file, QWidget* parent)

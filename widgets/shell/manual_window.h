@@ -4,6 +4,7 @@
 
 #include <QDialog>
 #include <memory>
+#include <string>
 
 #include "core/base/job_context.h"
 #include "widgets/report/report_pages.h"
@@ -14,12 +15,16 @@ namespace spindrift::gui {
 
 class PageView;
 
-/// Where the English manual of this program is: installed, or in the folder it was built in; empty if at neither place.
-[[nodiscard]] QString manualFile();
+/// Where the manual in a language is that came with this program: installed, or in the folder it was built in; empty if
+/// at neither place.
+[[nodiscard]] QString manualFile(const QString& language);
 /// Where the manual in the language of the window is kept once it was written: in the user's cache, by its version.
 [[nodiscard]] QString translatedManualFile();
 /// Writes it there unless it is there. Throws InputError; to be called in a job.
 void writeTranslatedManual(const QString& file, const JobContext& job);
+/// Writes the manual in the language of the window, by the ending as HTML or PDF. Throws InputError: another ending, a
+/// file that cannot be written, or English, whose manual ends with the commands of spindrift-cli and is written by it.
+void writeManual(const std::string& file);
 
 class ManualWindow : public QDialog {
   Q_OBJECT

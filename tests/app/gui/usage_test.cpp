@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <string>
 
+#include "core/base/atomic_file.h"
 #include "tests/support/temp_folder.h"
 
 namespace spindrift::testing {
@@ -53,6 +54,9 @@ TEST(GuiUsage, WhatIsNotAllowedIsRefusedInOneSentence) {
   expectRefused("--json x.json", "--json", "--self-test");
   expectRefused("--record x.json --self-test", "--record", "somebody uses the window");
   expectRefused("--record /proc/x.json", "/proc/x.json", "written");
+  expectRefused("--language de --manual manual.txt", "manual.txt", ".html or .pdf");
+  expectRefused("--manual manual.pdf", "English", "spindrift-cli manual");
+  expectRefused("--language de --manual /proc/manual.html", "/proc/manual.html", "written");
   expectRefused("one two", "two", "one session");
   EXPECT_EQ(start("--nonsense").status, 2);
 }
@@ -61,6 +65,16 @@ TEST(GuiUsage, WhatIsAllowedRuns) {
   EXPECT_EQ(start("--version").status, 0);
   EXPECT_EQ(start("--scale 2 --help").status, 0);
   EXPECT_EQ(start("--scale=1.5 --theme dark --startup-time").status, 0);
+}
+
+TEST(GuiUsage, TheManualIsWrittenInTheLanguageThatIsAskedFor) {
+  const TempFolder folder;
+  const std::string file = (folder / "manual.html").string();
+  const Outcome outcome = start("--language de --manual '" + file + "'");
+  EXPECT_EQ(outcome.status, 0) << outcome.text;
+  const std::string html = readFile(file);
+  EXPECT_NE(html.find("lang=\"de\""), std::string::npos);
+  EXPECT_NE(html.find("Wie Spindrift denkt"), std::string::npos);
 }
 
 }  // namespace
