@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "core/base/atomic_file.h"
+#include "tests/support/source_folder.h"
 
 namespace spindrift {
 namespace {
@@ -109,7 +110,7 @@ bool isWindowSystem(const std::string& include) {
 }
 
 TEST(Layers, CoreFoldersIncludeOnlyWhatIsBelowThem) {
-  const fs::path root = SPINDRIFT_SOURCE_DIR;
+  const fs::path root = spindrift::testing::sourceFolder();
   std::size_t checked = 0;
   std::vector<std::string> wrong;
   for (const auto& entry : fs::directory_iterator(root / "core")) {
@@ -144,13 +145,13 @@ std::vector<std::string> holding(const fs::path& folder, const std::regex& patte
 
 TEST(Layers, TheWindowShowsNumbersAndWorksNoneOut) {
   std::vector<std::string> wrong;
-  for (const fs::path& file : sources(fs::path(SPINDRIFT_SOURCE_DIR) / "widgets"))
+  for (const fs::path& file : sources(spindrift::testing::sourceFolder() / "widgets"))
     for (const std::string& include : includesOf(file))
       if (include.starts_with("core/math/")) wrong.push_back(file.string() + " includes " + include);
   EXPECT_THAT(wrong, ::testing::IsEmpty()) << "statistics and fits belong into the result that is stored";
   const std::regex work(
       R"re(\b(evaluateField|fieldBetween|secondAxisBias|closedFormsBeside|contrastGain|contrastAt|fitNineParameters|compareWithOthers|chooseTableOrder|leastSquares|solveLinear|differencesFromReference|gapFigures|verifyFigures|leaveOutPoles)\(|[.>]predict\(|\bDeviationQuery\b)re");
-  EXPECT_THAT(holding(fs::path(SPINDRIFT_SOURCE_DIR) / "widgets", work), ::testing::IsEmpty())
+  EXPECT_THAT(holding(spindrift::testing::sourceFolder() / "widgets", work), ::testing::IsEmpty())
       << "maps, closed forms and predictions are made by a job, in core";
 }
 
@@ -161,7 +162,7 @@ TEST(Layers, TablesAndPicturesAreWorkedOutBesideTheWindow) {
       R"re(\b(effectShape|pointChanges|verifyFiguresOfPoints|verifyMap|residualMap)\(|->movements\()re");
   const std::regex handed_over(R"re(\b(display|run|ask)\()re");
   std::size_t found = 0;
-  for (const fs::path& file : sources(fs::path(SPINDRIFT_SOURCE_DIR) / "widgets")) {
+  for (const fs::path& file : sources(spindrift::testing::sourceFolder() / "widgets")) {
     if (file.extension() != ".cpp") continue;
     const std::string text = readFile(file);
     for (std::sregex_iterator it(text.begin(), text.end(), call), end; it != end; ++it, ++found) {
@@ -182,7 +183,7 @@ TEST(Layers, NoTwoTypesHaveOneName) {
   static const std::regex type(R"re(^(?:struct|class) (\w+)(?: final)?(?: ?\{| : ))re");
   std::map<std::string, std::set<std::string>> defined;
   for (const char* folder : {"core", "widgets", "app"}) {
-    for (const fs::path& file : sources(fs::path(SPINDRIFT_SOURCE_DIR) / folder)) {
+    for (const fs::path& file : sources(spindrift::testing::sourceFolder() / folder)) {
       std::vector<std::string> around;
       std::istringstream lines(readFile(file));
       for (std::string line; std::getline(lines, line);) {
@@ -208,17 +209,17 @@ TEST(Layers, NoTwoTypesHaveOneName) {
 /// What may be shown of a task, and for how long, is told by the graph: nobody compares what results were made from.
 TEST(Layers, FreshnessIsAskedOfTheGraphAlone) {
   const std::regex compared(R"re(provenance\.(inputs|options|inputs_fingerprint) *[!=]=|\binputsKey\(\) *[!=]=)re");
-  EXPECT_THAT(holding(fs::path(SPINDRIFT_SOURCE_DIR) / "widgets", compared), ::testing::IsEmpty());
+  EXPECT_THAT(holding(spindrift::testing::sourceFolder() / "widgets", compared), ::testing::IsEmpty());
 }
 
 TEST(Layers, ConstIsConstInTheWindow) {
-  EXPECT_THAT(holding(fs::path(SPINDRIFT_SOURCE_DIR) / "widgets", std::regex("const_cast<")), ::testing::IsEmpty());
+  EXPECT_THAT(holding(spindrift::testing::sourceFolder() / "widgets", std::regex("const_cast<")), ::testing::IsEmpty());
 }
 
 /// What differs from task to task stands in its declaration (core/tasks/task_kinds.cpp): who asks what a task is called
 /// to find out what to do holds a second one.
 TEST(Layers, NobodyBranchesOnTheNameOfATask) {
-  const fs::path root = SPINDRIFT_SOURCE_DIR;
+  const fs::path root = spindrift::testing::sourceFolder();
   const std::string declared = readFile(root / "core/tasks/task_kinds.cpp");
   static const std::regex id(R"re(\.id = "([a-z-]+)")re");
   std::set<std::string> ids;
@@ -241,19 +242,19 @@ TEST(Layers, NobodyBranchesOnTheNameOfATask) {
 TEST(Layers, WarningsAreSentencesFromTheirBeginning) {
   const std::regex small_letter(
       R"re((warnings|notes)\.(push_back|emplace_back)\(\s*(std::string\()?\s*(fmt::format\(\s*)?"[a-z]+[^a-z.])re");
-  EXPECT_THAT(holding(fs::path(SPINDRIFT_SOURCE_DIR) / "core", small_letter), ::testing::IsEmpty());
+  EXPECT_THAT(holding(spindrift::testing::sourceFolder() / "core", small_letter), ::testing::IsEmpty());
 }
 
 TEST(Layers, ErrorsCarryLinesOfFilesAsNumbers) {
   const std::regex line_in_words(R"re(\{[^{};]*,\s*(fmt::format\()?"line [0-9{])re");
   const std::regex first_line(R"re(fail\(file, "line )re");
   for (const std::regex& pattern : {line_in_words, first_line})
-    EXPECT_THAT(holding(fs::path(SPINDRIFT_SOURCE_DIR) / "core", pattern), ::testing::IsEmpty())
+    EXPECT_THAT(holding(spindrift::testing::sourceFolder() / "core", pattern), ::testing::IsEmpty())
         << "SourcePlace::atLine";
 }
 
 TEST(Layers, CoreAndCommandLineKnowNoQtAndNoVtk) {
-  const fs::path root = SPINDRIFT_SOURCE_DIR;
+  const fs::path root = spindrift::testing::sourceFolder();
   std::vector<std::string> wrong;
   for (const char* folder : {"core", "app/cli"}) {
     for (const fs::path& file : sources(root / folder)) {
@@ -266,7 +267,7 @@ TEST(Layers, CoreAndCommandLineKnowNoQtAndNoVtk) {
 }
 
 TEST(Layers, CommandLineIncludesCoreOnly) {
-  for (const fs::path& file : sources(fs::path(SPINDRIFT_SOURCE_DIR) / "app/cli")) {
+  for (const fs::path& file : sources(spindrift::testing::sourceFolder() / "app/cli")) {
     for (const std::string& include : includesOf(file)) {
       EXPECT_FALSE(include.starts_with("widgets/") || include.starts_with("app/gui/"))
           << file << " includes " << include;
@@ -275,7 +276,7 @@ TEST(Layers, CommandLineIncludesCoreOnly) {
 }
 
 TEST(Layers, WidgetsDoNotIncludeTheProgram) {
-  for (const fs::path& file : sources(fs::path(SPINDRIFT_SOURCE_DIR) / "widgets")) {
+  for (const fs::path& file : sources(spindrift::testing::sourceFolder() / "widgets")) {
     for (const std::string& include : includesOf(file)) EXPECT_FALSE(include.starts_with("app/")) << file;
   }
 }
@@ -283,7 +284,7 @@ TEST(Layers, WidgetsDoNotIncludeTheProgram) {
 /// Pages are put together from panels, panels from views; services show nothing. None of these knows a page.
 TEST(Layers, FoldersOfWidgetsIncludeOnlyWhatIsBelowThem) {
   const std::map<std::string, std::set<std::string>>& allowed = allowedIncludesOfWidgets();
-  const fs::path root = fs::path(SPINDRIFT_SOURCE_DIR) / "widgets";
+  const fs::path root = spindrift::testing::sourceFolder() / "widgets";
   std::size_t checked = 0;
   std::vector<std::string> wrong;
   for (const fs::path& file : sources(root)) {
@@ -303,7 +304,7 @@ TEST(Layers, FoldersOfWidgetsIncludeOnlyWhatIsBelowThem) {
 
 /// What several areas show stands in widgets/panels/common.
 TEST(Layers, PanelsKnowOnlyPanelsOfTheirArea) {
-  const fs::path root = fs::path(SPINDRIFT_SOURCE_DIR) / "widgets/panels";
+  const fs::path root = spindrift::testing::sourceFolder() / "widgets/panels";
   std::vector<std::string> wrong;
   for (const fs::path& file : sources(root)) {
     const std::string area = fs::relative(file, root).begin()->string();
@@ -317,7 +318,7 @@ TEST(Layers, PanelsKnowOnlyPanelsOfTheirArea) {
 }
 
 TEST(Layers, HeavyHeadersStayInFewFiles) {
-  for (const fs::path& file : sources(fs::path(SPINDRIFT_SOURCE_DIR) / "core")) {
+  for (const fs::path& file : sources(spindrift::testing::sourceFolder() / "core")) {
     if (file.extension() != ".h") continue;
     for (const std::string& include : includesOf(file)) {
       EXPECT_FALSE(include.starts_with("pcl/") || include.starts_with("ceres/") || include.starts_with("soci") ||
@@ -330,7 +331,7 @@ TEST(Layers, HeavyHeadersStayInFewFiles) {
 }
 
 TEST(Layers, EverySourceNamesItsLicence) {
-  const fs::path root = SPINDRIFT_SOURCE_DIR;
+  const fs::path root = spindrift::testing::sourceFolder();
   for (const char* folder : {"core", "app", "widgets", "tests"}) {
     for (const fs::path& file : sources(root / folder)) {
       const std::string text = readFile(file);

@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "tests/package/shell.h"
+#include "tests/support/source_folder.h"
 #include "tests/support/temp_folder.h"
 
 namespace spindrift::testing {
@@ -23,14 +24,14 @@ std::string contentOf(const std::filesystem::path& file) {
 TEST(Documentation, EveryHeaderHasItsPageAndNothingIsWarnedOf) {
   const TempFolder folder;
   EXPECT_EQ(outputOf(fmt::format("cd {} && (cat resources/Doxyfile; echo OUTPUT_DIRECTORY={}) | doxygen -",
-                                 SPINDRIFT_SOURCE_DIR, folder.path().string())),
+                                 sourceFolder().string(), folder.path().string())),
             "");
   std::string pages;
   for (const auto& entry : std::filesystem::directory_iterator(folder / "html")) {
     const std::string name = entry.path().filename().string();
     if (name.ends_with("_8h.html")) pages += contentOf(entry.path());
   }
-  const std::filesystem::path sources = SPINDRIFT_SOURCE_DIR;
+  const std::filesystem::path sources = sourceFolder();
   int headers = 0;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(sources / "core")) {
     if (entry.path().extension() != ".h") continue;

@@ -9,6 +9,7 @@
 #include "core/base/random.h"
 #include "core/base/text.h"
 #include "tests/app/cli/child_process.h"
+#include "tests/support/source_folder.h"
 #include "tests/support/temp_folder.h"
 
 namespace spindrift::testing {
@@ -16,7 +17,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-const std::filesystem::path data = std::filesystem::path(SPINDRIFT_TEST_DATA) / "finite_elements";
+const std::filesystem::path data = testData() / "finite_elements";
 
 std::vector<std::string> import(const std::string& result, const std::filesystem::path& out,
                                 const std::vector<std::string>& more) {

@@ -10,6 +10,7 @@
 #include "core/machine/observation.h"
 #include "core/simulation/virtual_fiducials.h"
 #include "tests/app/cli/child_process.h"
+#include "tests/support/source_folder.h"
 #include "tests/support/temp_folder.h"
 
 namespace spindrift::testing {
@@ -120,7 +121,8 @@ TEST_F(Images, ObservationsOfAnotherMachineAreSaid) {
 /// From the scenario to the deviations: the campaign carries its own artwork, and nothing else decodes its images.
 TEST(OwnPattern, IsSimulatedDecodedCheckedAndEvaluated) {
   const TempFolder folder;
-  nlohmann::json scenario = nlohmann::json::parse(textOf(SPINDRIFT_SOURCE_DIR "/resources/scenarios/own_pattern.json"));
+  nlohmann::json scenario =
+      nlohmann::json::parse(textOf(sourceFolder().string() + "/resources/scenarios/own_pattern.json"));
   scenario["microscope"]["fiducials"] = {"F1", "F3"};
   scenario["microscope"]["steps_mm"] = {-0.1016, 0.0, 0.1016};
   const std::string file = folder.write("scenario.json", scenario.dump()).string();

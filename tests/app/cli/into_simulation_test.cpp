@@ -7,6 +7,7 @@
 
 #include "core/base/atomic_file.h"
 #include "tests/app/cli/child_process.h"
+#include "tests/support/source_folder.h"
 #include "tests/support/temp_folder.h"
 
 namespace spindrift::testing {
@@ -19,8 +20,8 @@ using ::testing::HasSubstr;
 class IntoSimulationCli : public ::testing::Test {
  protected:
   void SetUp() override {
-    nlohmann::json scenario = nlohmann::json::parse(
-        readFile(std::filesystem::path(SPINDRIFT_SOURCE_DIR) / "resources/scenarios/discrepancy_vertical.json"));
+    nlohmann::json scenario =
+        nlohmann::json::parse(readFile(sourceFolder() / "resources/scenarios/discrepancy_vertical.json"));
     scenario["effects"]["column.bending.a"] = {{"size", 1.0}};
     scenario["effects"]["spindle.drift.y"] = {{"size", 0.8}};
     scenario["simulation"]["effects"] = {"ball_screw.expansion.x", "ball_screw.expansion.z", "spindle.drift.y"};

@@ -27,6 +27,7 @@
 #include "core/connect/linuxcnc_shell.h"
 #include "core/connect/source.h"
 #include "core/control/private_control.h"
+#include "tests/support/source_folder.h"
 #include "tests/support/temp_folder.h"
 
 namespace spindrift::testing {
@@ -187,8 +188,7 @@ TEST(LoopCommand, TheExampleOfTheResourcesIsThatOfTheProgram) {
   ASSERT_EQ(status, 0) << contents(folder / "out.txt");
   for (const char* name :
        {"plan.json", "machine.json", "simulation.json", "truth.json", "control/spindrift.hal", "control/spindrift.ini"})
-    EXPECT_EQ(contents(folder / name), contents(std::filesystem::path(SPINDRIFT_SOURCE_DIR) / "resources/loop" / name))
-        << name;
+    EXPECT_EQ(contents(folder / name), contents(sourceFolder() / "resources/loop" / name)) << name;
   Process dry;
   dry.start({SPINDRIFT_CLI, "loop", (folder / "plan.json").string(), "--dry-run"}, folder / "dry.txt");
   ASSERT_TRUE(waitFor([&] { return (status = dry.status()) >= 0; }, 20.0));

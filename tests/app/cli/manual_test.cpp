@@ -14,6 +14,7 @@
 #include "core/base/text.h"
 #include "core/discrepancy/catalogue.h"
 #include "tests/app/cli/child_process.h"
+#include "tests/support/source_folder.h"
 #include "tests/support/temp_folder.h"
 
 namespace spindrift::testing {
@@ -96,7 +97,7 @@ TEST(Manual, ComparesAsItShould) {
 }
 
 TEST(Manual, ExamplesAreWhatTheProgramSays) {
-  const std::filesystem::path sources = SPINDRIFT_SOURCE_DIR;
+  const std::filesystem::path sources = sourceFolder();
   const TempFolder folder;
   std::filesystem::create_directory_symlink(sources / "resources/scenarios", folder / "scenarios");
   const std::filesystem::path before = std::filesystem::current_path();
@@ -125,7 +126,7 @@ TEST(Manual, ExamplesAreWhatTheProgramSays) {
 
 /// What is typed and answered there is English too, and has been run above.
 TEST(Manual, TheGermanChaptersHaveTheSameExamples) {
-  const std::filesystem::path english = std::filesystem::path(SPINDRIFT_SOURCE_DIR) / "resources/manual";
+  const std::filesystem::path english = sourceFolder() / "resources/manual";
   const auto blocksOf = [](const std::filesystem::path& chapter) {
     std::vector<std::string> lines;
     bool console = false;

@@ -18,6 +18,7 @@
 #include "core/session/session.h"
 #include "tests/app/cli/child_process.h"
 #include "tests/core/plant/temporary_postgres.h"
+#include "tests/support/source_folder.h"
 #include "tests/support/temp_folder.h"
 
 namespace spindrift::testing {
@@ -134,7 +135,7 @@ TEST(BatchCommand, CancelledBatchesAreResumedAndFailuresTold) {
 TEST(BatchCommand, AnswersAsTheCommandsDoAlone) {
   const TempFolder folder;
   const std::string store = (folder / "plant.sqlite").string();
-  const std::string scenarios = SPINDRIFT_SOURCE_DIR "/resources/scenarios/";
+  const std::string scenarios = sourceFolder().string() + "/resources/scenarios/";
   for (const char* seed : {"1", "2"}) {
     for (const char* scenario : {"discrepancy_vertical", "hole_bar"})
       (void)jsonOf({"simulate", scenarios + scenario + ".json", "--seed", seed, "--out",
@@ -209,7 +210,7 @@ TEST(BatchCommand, AnswersAsTheCommandsDoAlone) {
 /// Runs a script of bash beside a Slurm of its own, SLURM_TOOLS at hand; gives exit status and what was said.
 std::pair<int, std::string> besideSlurm(const TempFolder& folder, const std::string& script) {
   const std::string file = folder.write("go.sh", "set -e\n. $SLURM_TOOLS\n" + script).string();
-  const std::string command = std::string(SPINDRIFT_SOURCE_DIR) + "/tests/app/cli/temporary_slurm.sh " +
+  const std::string command = sourceFolder().string() + "/tests/app/cli/temporary_slurm.sh " +
                               (folder / "slurm").string() + " bash " + file + " 2>&1";
   FILE* pipe = ::popen(command.c_str(), "r");
   if (pipe == nullptr) return {-1, "no shell"};

@@ -10,6 +10,7 @@
 #include <set>
 
 #include "tests/app/cli/child_process.h"
+#include "tests/support/source_folder.h"
 #include "tests/support/temp_folder.h"
 
 namespace spindrift::testing {
@@ -48,7 +49,7 @@ class PrintedText : public ::testing::Test {
   std::string demo(const std::string& scenario) {
     const std::string made = (folder / scenario).string();
     const Outcome outcome =
-        runCli({"simulate", SPINDRIFT_SOURCE_DIR "/resources/scenarios/" + scenario + ".json", "--out", made});
+        runCli({"simulate", sourceFolder().string() + "/resources/scenarios/" + scenario + ".json", "--out", made});
     EXPECT_EQ(outcome.status, 0) << outcome.error;
     expectWellSpelt({"simulate", scenario}, outcome);
     return made;

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "tests/app/cli/child_process.h"
+#include "tests/support/source_folder.h"
 #include "tests/support/temp_folder.h"
 
 namespace spindrift::testing {
@@ -16,7 +17,7 @@ class Touches : public ::testing::Test {
  protected:
   void make(const std::string& name) {
     const Outcome made =
-        runCli({"simulate", SPINDRIFT_SOURCE_DIR "/resources/scenarios/" + name + ".json", "--out", campaign});
+        runCli({"simulate", sourceFolder().string() + "/resources/scenarios/" + name + ".json", "--out", campaign});
     ASSERT_EQ(made.status, 0) << made.error;
   }
   void expectRefused(const std::vector<std::string>& parts) {

@@ -6,6 +6,7 @@
 #include "core/base/job_context.h"
 #include "core/session/session.h"
 #include "tests/app/cli/child_process.h"
+#include "tests/support/source_folder.h"
 #include "tests/support/temp_folder.h"
 
 namespace spindrift::testing {
@@ -54,8 +55,9 @@ TEST(SessionCommand, SaysHowFarEveryStepIsAndWhatChanged) {
 TEST(SessionCommand, EvaluateAndReportShareTheTasksOfTheWindow) {
   const TempFolder folder;
   const std::string campaign = (folder / "c").string(), place = (folder / "s").string();
-  ASSERT_EQ(runCli({"simulate", SPINDRIFT_SOURCE_DIR "/resources/scenarios/hole_bar.json", "--out", campaign}).status,
-            0);
+  ASSERT_EQ(
+      runCli({"simulate", sourceFolder().string() + "/resources/scenarios/hole_bar.json", "--out", campaign}).status,
+      0);
   {
     JobContext job;
     const std::string file = campaign + "/machine.json";

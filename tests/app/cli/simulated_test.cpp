@@ -7,12 +7,13 @@
 #include <memory>
 
 #include "tests/app/cli/child_process.h"
+#include "tests/support/source_folder.h"
 #include "tests/support/temp_folder.h"
 
 namespace spindrift::testing {
 namespace {
 
-const std::string scenario = SPINDRIFT_SOURCE_DIR "/resources/scenarios/discrepancy_vertical.json";
+const std::string scenario = sourceFolder().string() + "/resources/scenarios/discrepancy_vertical.json";
 
 class Simulated : public ::testing::Test {
  public:
@@ -64,7 +65,7 @@ TEST_F(Simulated, SameSeedSameFilesAndNoFolderIsOverwritten) {
 
 TEST_F(Simulated, TimesOfTheMachineAndOfWritingAreToldApart) {
   // A machine is simulated in milliseconds, its images are not: what was said to take 23 ms took minutes.
-  nlohmann::json json = nlohmann::json::parse(textOf(SPINDRIFT_SOURCE_DIR "/resources/scenarios/fiducials.json"));
+  nlohmann::json json = nlohmann::json::parse(textOf(sourceFolder().string() + "/resources/scenarios/fiducials.json"));
   json["microscope"].update({{"fiducials", {"F1"}}, {"width_px", 640}, {"height_px", 480}});
   writeText(in("images.json"), json.dump());
   const auto started = std::chrono::steady_clock::now();

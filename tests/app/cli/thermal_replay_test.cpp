@@ -7,6 +7,7 @@
 
 #include "core/base/random.h"
 #include "tests/app/cli/child_process.h"
+#include "tests/support/source_folder.h"
 #include "tests/support/temp_folder.h"
 
 namespace spindrift::testing {
@@ -73,8 +74,7 @@ TEST_F(ThermalReplay, AdaptiveStaysTrueWhereStaticDoesNot) {
 
 TEST_F(ThermalReplay, ReadsTheErrorsOfACampaignFromItsTouches) {
   const std::filesystem::path scenario = folder / "scenario.json";
-  std::filesystem::copy_file(std::filesystem::path(SPINDRIFT_SOURCE_DIR) / "resources/scenarios/talc_105h.json",
-                             scenario);
+  std::filesystem::copy_file(sourceFolder() / "resources/scenarios/talc_105h.json", scenario);
   edit(scenario, "\"duration_s\": 378000", "\"duration_s\": 72000");
   edit(scenario, "\"cycles\": 209", "\"cycles\": 40");
   const std::string campaign = (folder / "campaign").string();

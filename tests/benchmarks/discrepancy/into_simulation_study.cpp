@@ -22,6 +22,7 @@
 #include "core/discrepancy/simulator_tangents.h"
 #include "core/simulation/scenario_simulator.h"
 #include "core/simulation/virtual_campaign.h"
+#include "tests/support/source_folder.h"
 
 namespace spindrift {
 namespace {
@@ -62,7 +63,7 @@ Made makeCampaign(std::uint64_t seed, double strength) {
   static const std::vector<std::string> machines{"vertical", "horizontal", "gantry", "five_axis"};
   const std::string file = "resources/scenarios/discrepancy_" + machines[random.index(machines.size())] + ".json";
   Made made;
-  json scenario = json::parse(readFile(fs::path(SPINDRIFT_SOURCE_DIR) / file));
+  json scenario = json::parse(readFile(spindrift::testing::sourceFolder() / file));
   scenario["seed"] = seed;
   scenario["programme"] = {{"random", {{"idle_s", 1800}, {"mean_hold_s", 2700}}}};
   scenario.erase("simulation");

@@ -12,6 +12,7 @@
 #include "core/discrepancy/effect_listing.h"
 #include "core/discrepancy/effect_relations.h"
 #include "core/discrepancy/effect_titles.h"
+#include "tests/support/source_folder.h"
 
 namespace spindrift {
 namespace {
@@ -20,7 +21,8 @@ using ::testing::UnorderedElementsAreArray;
 
 TEST(Catalogue, EveryFileOfTheFolderIsAFamily) {
   std::size_t files = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(SPINDRIFT_SOURCE_DIR "/core/discrepancy/effects")) {
+  for (const auto& entry :
+       std::filesystem::directory_iterator(spindrift::testing::sourceFolder().string() + "/core/discrepancy/effects")) {
     if (entry.path().extension() == ".cpp") ++files;
   }
   EXPECT_EQ(effectFamilies().size(), files);

@@ -13,6 +13,7 @@
 #include "core/discrepancy/drivers.h"
 #include "tests/core/discrepancy/small_plant.h"
 #include "tests/support/refusal.h"
+#include "tests/support/source_folder.h"
 #include "tests/support/temp_folder.h"
 
 namespace spindrift {
@@ -234,7 +235,7 @@ std::filesystem::path campaignFolder(const testing::TempFolder& folder, const st
 TEST(DiscrepancyInputOf, ComparesFiniteElementsThemselves) {
   const testing::TempFolder folder;
   const auto campaign_folder = campaignFolder(folder, "fe.json");
-  const std::filesystem::path data = std::filesystem::path(SPINDRIFT_TEST_DATA) / "finite_elements";
+  const std::filesystem::path data = spindrift::testing::testData() / "finite_elements";
   for (const char* file : {"frame.frd", "mesh.inp"}) std::filesystem::copy_file(data / file, campaign_folder / file);
   folder.write("fe.json",
                R"({"format":"spindrift-finite-elements","version":1,"unit_of_displacement":"mm",

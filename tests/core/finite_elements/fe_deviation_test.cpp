@@ -13,6 +13,7 @@
 #include "core/base/text.h"
 #include "tests/support/outside_folder.h"
 #include "tests/support/refusal.h"
+#include "tests/support/source_folder.h"
 #include "tests/support/temp_folder.h"
 
 namespace spindrift {
@@ -23,7 +24,7 @@ using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-const std::filesystem::path data = std::filesystem::path(SPINDRIFT_TEST_DATA) / "finite_elements";
+const std::filesystem::path data = spindrift::testing::testData() / "finite_elements";
 
 FeNodes set(const std::string& name) {
   return FeNodes::parse(name);

@@ -9,6 +9,7 @@
 #include "core/finite_elements/fe_result.h"
 #include "tests/support/outside_folder.h"
 #include "tests/support/refusal.h"
+#include "tests/support/source_folder.h"
 #include "tests/support/temp_folder.h"
 
 namespace spindrift {
@@ -19,7 +20,7 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using testing::refusal;
 
-const std::filesystem::path reader_data = std::filesystem::path(SPINDRIFT_TEST_DATA) / "finite_elements";
+const std::filesystem::path reader_data = spindrift::testing::testData() / "finite_elements";
 
 std::string replaced(std::string text, const std::string& from, const std::string& to) {
   const std::size_t at = text.find(from);

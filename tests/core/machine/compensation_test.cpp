@@ -7,6 +7,7 @@
 #include "core/base/atomic_file.h"
 #include "core/base/random.h"
 #include "core/machine/nine_parameter_model.h"
+#include "tests/support/source_folder.h"
 
 namespace spindrift {
 namespace {
@@ -32,7 +33,7 @@ MachineDescription machine() {
 }
 
 std::string golden(const char* name) {
-  return readFile(std::filesystem::path(SPINDRIFT_TEST_DATA) / "compensation" / name);
+  return readFile(spindrift::testing::testData() / "compensation" / name);
 }
 
 TEST(Compensation, GridIsMinusTheDeviation) {

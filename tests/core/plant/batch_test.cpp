@@ -20,6 +20,7 @@
 #include "core/plant/batch_worker.h"
 #include "tests/core/plant/both_stores.h"
 #include "tests/support/refusal.h"
+#include "tests/support/source_folder.h"
 
 namespace spindrift {
 namespace {
@@ -394,7 +395,7 @@ TEST(BatchWork, SimulatesAndFitsTheSameTwice) {
   plan.work = "simulate";
   plan.first_seed = 7;
   plan.seeds = 1;
-  plan.options = {{"scenario", std::string(SPINDRIFT_SOURCE_DIR) + "/resources/scenarios/hole_bar.json"},
+  plan.options = {{"scenario", spindrift::testing::sourceFolder().string() + "/resources/scenarios/hole_bar.json"},
                   {"out", (folder / "made").string()}};
   JobContext job;
   const nlohmann::json made = workOut(plan, 0, job);

@@ -6,6 +6,7 @@
 #include "core/simulation/virtual_campaign.h"
 #include "tests/core/plant/both_stores.h"
 #include "tests/support/refusal.h"
+#include "tests/support/source_folder.h"
 
 namespace spindrift {
 namespace {
@@ -125,7 +126,8 @@ TEST_P(PublishTest, WaitsWhileTheStoreIsAwayAndArrivesOnce) {
 }
 
 TEST_P(PublishTest, CampaignFolderIsEvaluatedAndPublished) {
-  Scenario scenario = Scenario::read(std::string(SPINDRIFT_SOURCE_DIR) + "/resources/scenarios/hole_bar.json");
+  Scenario scenario =
+      Scenario::read(spindrift::testing::sourceFolder().string() + "/resources/scenarios/hole_bar.json");
   const std::filesystem::path folder = folder_ / "campaign";
   writeCampaign(simulateCampaign(scenario, 3, JobContext()), folder);
   JobContext job;

@@ -20,12 +20,13 @@
 #include "core/probing/printed_text.h"
 #include "core/workflows/file_reference.h"
 #include "tests/fuzz/readers.h"
+#include "tests/support/source_folder.h"
 
 namespace spindrift::testing {
 namespace {
 
 const std::filesystem::path& sources() {
-  static const std::filesystem::path folder = SPINDRIFT_SOURCE_DIR;
+  static const std::filesystem::path folder = sourceFolder();
   return folder;
 }
 

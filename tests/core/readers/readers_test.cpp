@@ -13,6 +13,7 @@
 
 #include "core/base/atomic_file.h"
 #include "core/base/random.h"
+#include "tests/support/source_folder.h"
 
 namespace spindrift::testing {
 namespace {
@@ -28,7 +29,7 @@ std::vector<Reader> allReaders() {
 
 std::vector<std::filesystem::path> seedsOf(const Reader& reader) {
   std::vector<std::filesystem::path> files;
-  const std::filesystem::path folder = std::filesystem::path(SPINDRIFT_SOURCE_DIR) / "tests/fuzz/corpus" / reader.name;
+  const std::filesystem::path folder = sourceFolder() / "tests/fuzz/corpus" / reader.name;
   if (std::filesystem::is_directory(folder))
     for (const auto& entry : std::filesystem::directory_iterator(folder)) files.push_back(entry.path());
   std::sort(files.begin(), files.end());

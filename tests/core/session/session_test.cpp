@@ -12,6 +12,7 @@
 #include "core/base/atomic_file.h"
 #include "core/base/error.h"
 #include "core/session/fingerprint.h"
+#include "tests/support/source_folder.h"
 #include "tests/support/temp_folder.h"
 
 namespace spindrift {
@@ -222,7 +223,7 @@ void writeVersion1(const TempFolder& folder, const std::string& name) {
   std::filesystem::rename(source, folder / (name + "/campaigns/warm-up_1"));
   sqlite3* handle = nullptr;
   ASSERT_EQ(sqlite3_open((folder / (name + "/session.sqlite")).c_str(), &handle), SQLITE_OK);
-  const std::string sql = readFile(std::filesystem::path(SPINDRIFT_TEST_DATA) / "sessions/version-1.sql");
+  const std::string sql = readFile(spindrift::testing::testData() / "sessions/version-1.sql");
   ASSERT_EQ(sqlite3_exec(handle, sql.c_str(), nullptr, nullptr, nullptr), SQLITE_OK) << sqlite3_errmsg(handle);
   sqlite3_close(handle);
 }

@@ -9,6 +9,7 @@
 #include <map>
 
 #include "core/simulation/scenario.h"
+#include "tests/support/source_folder.h"
 
 namespace spindrift {
 namespace {
@@ -18,7 +19,7 @@ constexpr double shift_s = 28800.0;
 /// A machine that works with everything it has for a long time, in a room that warms up.
 VirtualMachine working(const std::string& scenario, std::uint64_t seed) {
   const MachineDescription machine =
-      Scenario::read(std::filesystem::path(SPINDRIFT_SOURCE_DIR) / "resources/scenarios" / scenario).machine;
+      Scenario::read(spindrift::testing::sourceFolder() / "resources/scenarios" / scenario).machine;
   ProgrammeSegment busy;
   busy.spindle_rpm = 6000.0;
   busy.feed_mm_min = {9000.0, 9000.0, 9000.0};

@@ -10,6 +10,7 @@
 #include "core/base/atomic_file.h"
 #include "core/simulation/virtual_campaign.h"
 #include "tests/support/refusal.h"
+#include "tests/support/source_folder.h"
 #include "tests/support/temp_folder.h"
 
 namespace spindrift {
@@ -29,7 +30,7 @@ class ScenarioSimulatorTest : public ::testing::Test {
  protected:
   ScenarioSimulatorTest() {
     scenario = nlohmann::json::parse(
-        readFile(fs::path(SPINDRIFT_SOURCE_DIR) / "resources/scenarios/discrepancy_vertical.json"));
+        readFile(spindrift::testing::sourceFolder() / "resources/scenarios/discrepancy_vertical.json"));
     scenario.erase("simulation");
     scenario["duration_s"] = 14400;
     scenario["measurement"] = {{"every_s", 1800}, {"states", 8}, {"holdout_last", 2}};

@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "core/base/error.h"
+#include "tests/support/source_folder.h"
 
 namespace spindrift {
 namespace {
@@ -15,7 +16,7 @@ namespace {
 using ::testing::HasSubstr;
 
 nlohmann::json good() {
-  std::ifstream in(std::filesystem::path(SPINDRIFT_SOURCE_DIR) / "resources/scenarios/discrepancy_vertical.json");
+  std::ifstream in(spindrift::testing::sourceFolder() / "resources/scenarios/discrepancy_vertical.json");
   return nlohmann::json::parse(in);
 }
 
@@ -35,7 +36,7 @@ std::string complaint(const nlohmann::json& json) {
 TEST(Scenario, EveryShippedScenarioIsRead) {
   int count = 0;
   for (const auto& entry :
-       std::filesystem::directory_iterator(std::filesystem::path(SPINDRIFT_SOURCE_DIR) / "resources/scenarios")) {
+       std::filesystem::directory_iterator(spindrift::testing::sourceFolder() / "resources/scenarios")) {
     if (entry.path().extension() != ".json") continue;
     EXPECT_NO_THROW((void)Scenario::read(entry.path())) << entry.path();
     ++count;

@@ -9,13 +9,14 @@
 
 #include "core/base/atomic_file.h"
 #include "core/math/statistics.h"
+#include "tests/support/source_folder.h"
 #include "tests/support/temp_folder.h"
 
 namespace spindrift {
 namespace {
 
 Scenario shipped(const std::string& name) {
-  return Scenario::read(std::filesystem::path(SPINDRIFT_SOURCE_DIR) / "resources/scenarios" / name);
+  return Scenario::read(spindrift::testing::sourceFolder() / "resources/scenarios" / name);
 }
 
 std::map<std::string, std::string> files(const std::filesystem::path& folder) {

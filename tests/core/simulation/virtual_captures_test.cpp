@@ -14,13 +14,14 @@
 #include "core/scanning/evaluate_scans.h"
 #include "core/scanning/scan_evaluation.h"
 #include "core/simulation/virtual_campaign.h"
+#include "tests/support/source_folder.h"
 #include "tests/support/temp_folder.h"
 
 namespace spindrift {
 namespace {
 
 nlohmann::json scenarioJson(const std::string& name) {
-  return JsonNode::read(std::filesystem::path(SPINDRIFT_SOURCE_DIR) / "resources/scenarios" / (name + ".json")).value();
+  return JsonNode::read(spindrift::testing::sourceFolder() / "resources/scenarios" / (name + ".json")).value();
 }
 
 Scenario parsed(const nlohmann::json& json) {

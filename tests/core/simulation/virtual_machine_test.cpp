@@ -9,6 +9,7 @@
 
 #include "core/base/units.h"
 #include "core/simulation/scenario.h"
+#include "tests/support/source_folder.h"
 
 namespace spindrift {
 namespace {
@@ -16,7 +17,7 @@ namespace {
 constexpr double duration_s = 28800.0;
 
 MachineDescription shippedMachine(const std::string& scenario) {
-  return Scenario::read(std::filesystem::path(SPINDRIFT_SOURCE_DIR) / "resources/scenarios" / scenario).machine;
+  return Scenario::read(spindrift::testing::sourceFolder() / "resources/scenarios" / scenario).machine;
 }
 
 EnvironmentOptions quietRoom() {

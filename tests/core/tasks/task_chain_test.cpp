@@ -15,6 +15,7 @@
 #include "core/simulation/virtual_campaign.h"
 #include "core/tasks/task_options.h"
 #include "core/workflows/instrument_checks.h"
+#include "tests/support/source_folder.h"
 #include "tests/support/temp_folder.h"
 
 namespace spindrift {
@@ -45,7 +46,7 @@ class TaskChainTest : public ::testing::Test {
     static const TempFolder kept;
     if (!std::filesystem::exists(kept / "c")) {
       Scenario scenario =
-          Scenario::read(std::filesystem::path(SPINDRIFT_SOURCE_DIR) / "resources" / "scenarios" / "hole_bar.json");
+          Scenario::read(spindrift::testing::sourceFolder() / "resources" / "scenarios" / "hole_bar.json");
       writeCampaign(simulateCampaign(scenario, std::nullopt, JobContext()), kept / "c");
     }
     session_.emplace(Session::create(folder_ / "s"));
@@ -218,8 +219,8 @@ TEST_F(TaskChainTest, TheCheckCountsTouchesByTheNamesThatStepsKnow) {
 /// A campaign with observations, a log and a simulation of its own: nothing is evaluated first.
 TEST(TaskChain, OfObservationsRunsSearchModelCompensationAndReport) {
   const TempFolder folder;
-  writeCampaign(simulateCampaign(Scenario::read(std::filesystem::path(SPINDRIFT_SOURCE_DIR) / "resources" /
-                                                "scenarios" / "discrepancy_vertical.json"),
+  writeCampaign(simulateCampaign(Scenario::read(spindrift::testing::sourceFolder() / "resources" / "scenarios" /
+                                                "discrepancy_vertical.json"),
                                  std::nullopt, JobContext()),
                 folder / "c");
   Session session = Session::create(folder / "s");

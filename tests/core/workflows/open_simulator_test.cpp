@@ -10,6 +10,7 @@
 #include "core/base/error.h"
 #include "core/discrepancy/discrepancy.h"
 #include "core/simulation/virtual_campaign.h"
+#include "tests/support/source_folder.h"
 #include "tests/support/temp_folder.h"
 
 namespace spindrift {
@@ -29,7 +30,7 @@ std::string simulator(const std::string& keys, const std::string& name) {
 TEST(OpenSimulator, EveryKindForACampaign) {
   const testing::TempFolder temp;
   nlohmann::json scenario = nlohmann::json::parse(
-      readFile(std::filesystem::path(SPINDRIFT_SOURCE_DIR) / "resources/scenarios/discrepancy_vertical.json"));
+      readFile(spindrift::testing::sourceFolder() / "resources/scenarios/discrepancy_vertical.json"));
   scenario["duration_s"] = 14400;
   scenario["measurement"] = {{"every_s", 1800}, {"states", 8}, {"holdout_last", 2}};
   const auto file = temp.write("sim/scenario.json", scenario.dump());

@@ -17,6 +17,7 @@
 #include "core/simulation/scenario.h"
 #include "core/simulation/virtual_campaign.h"
 #include "core/workflows/evaluate_campaign.h"
+#include "tests/support/source_folder.h"
 #include "tests/support/temp_folder.h"
 
 namespace spindrift {
@@ -48,8 +49,7 @@ struct Material {
 };
 
 Material makeMaterial(const TempFolder& folder) {
-  Scenario scenario =
-      Scenario::read(std::filesystem::path(SPINDRIFT_SOURCE_DIR) / "resources" / "scenarios" / "hole_bar.json");
+  Scenario scenario = Scenario::read(spindrift::testing::sourceFolder() / "resources" / "scenarios" / "hole_bar.json");
   writeCampaign(simulateCampaign(scenario, std::nullopt, JobContext()), folder / "source");
   Material material;
   material.machine = readFile(folder / "source/machine.json");

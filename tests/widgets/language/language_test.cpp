@@ -24,6 +24,7 @@
 #include "core/base/error.h"
 #include "core/base/json_reader.h"
 #include "core/machine/observation.h"
+#include "tests/support/source_folder.h"
 #include "tests/support/temp_folder.h"
 #include "widgets/common/core_formats.h"
 #include "widgets/common/core_sentence.h"
@@ -51,7 +52,7 @@ struct Text {
 };
 
 std::vector<Text> textsOf(const QString& name) {
-  QFile file(QStringLiteral(SPINDRIFT_SOURCE_DIR "/resources/translations/") + name);
+  QFile file(QString::fromStdString((spindrift::testing::sourceFolder() / "resources/translations/").string()) + name);
   EXPECT_TRUE(file.open(QIODevice::ReadOnly)) << name.toStdString();
   QXmlStreamReader xml(&file);
   std::vector<Text> texts;
@@ -126,7 +127,7 @@ INSTANTIATE_TEST_SUITE_P(All, CatalogueTest, ::testing::Values("spindrift_de.ts"
 /// The glossary of the manual has a German word for each term: sentences that have the term have that word too, by the
 /// beginning of its parts (they are declined).
 TEST(Glossary, TermsAreTranslatedAsItSays) {
-  QFile file(QStringLiteral(SPINDRIFT_SOURCE_DIR "/resources/manual/70-glossary.md"));
+  QFile file(QString::fromStdString((spindrift::testing::sourceFolder() / "resources/manual/70-glossary.md").string()));
   ASSERT_TRUE(file.open(QIODevice::ReadOnly));
   const std::vector<Text> texts = textsOf(QStringLiteral("spindrift_de.ts"));
   constexpr qsizetype stem = 4;
@@ -163,7 +164,7 @@ TEST(Glossary, TermsAreTranslatedAsItSays) {
 
 /// All that a user can read: sources with their literals joined, help and manual. White space is one blank.
 QString everySentence() {
-  const std::filesystem::path top(SPINDRIFT_SOURCE_DIR);
+  const std::filesystem::path top = spindrift::testing::sourceFolder();
   static const QRegularExpression broken(QStringLiteral("\"\\s*\\n\\s*\""));
   QString all;
   for (const char* folder : {"core", "app", "widgets", "resources/help", "resources/manual"}) {
@@ -180,7 +181,7 @@ QString everySentence() {
 
 /// resources/docs/sentences.md: what stands at the left is said nowhere, what stands at the right is said.
 TEST(Sentences, TheWorstAreNotSaidAgain) {
-  QFile file(QStringLiteral(SPINDRIFT_SOURCE_DIR "/resources/docs/sentences.md"));
+  QFile file(QString::fromStdString((spindrift::testing::sourceFolder() / "resources/docs/sentences.md").string()));
   ASSERT_TRUE(file.open(QIODevice::ReadOnly));
   const QString all = everySentence();
   int sentences = 0;
@@ -425,7 +426,7 @@ TEST_F(LanguageTest, DrawingsOfTheHelpAreInItToo) {
 
 /// A block that is not found is shown in English: none of them is.
 TEST_F(LanguageTest, EveryPageOfTheHelpIsReadAndInGerman) {
-  const QDir folder(QStringLiteral(SPINDRIFT_SOURCE_DIR "/resources/help"));
+  const QDir folder(QString::fromStdString((spindrift::testing::sourceFolder() / "resources/help").string()));
   const QStringList pages = folder.entryList({QStringLiteral("*.html")});
   ASSERT_GE(pages.size(), 10);
   for (const QString& page : pages) {

@@ -12,6 +12,7 @@
 #include <QPainter>
 #include <QSettings>
 
+#include "tests/support/source_folder.h"
 #include "tests/support/temp_folder.h"
 #include "tests/widgets/support/picture_compare.h"
 #include "widgets/jobs/job_bar.h"
@@ -26,7 +27,7 @@ namespace spindrift::gui {
 namespace {
 
 QString baselineFile(const QString& name) {
-  return QStringLiteral(SPINDRIFT_TEST_DATA "/baselines/%1.png").arg(name);
+  return QString::fromStdString((spindrift::testing::testData() / "baselines/%1.png").string()).arg(name);
 }
 
 class BaselineTest : public ::testing::Test {
@@ -68,7 +69,7 @@ class BaselineTest : public ::testing::Test {
   void check(const QString& name, ThemeKind kind = ThemeKind::Light) {
     const QImage now = picture(kind);
     if (qEnvironmentVariableIsSet("SPINDRIFT_RENEW_BASELINES")) {
-      ASSERT_TRUE(QDir().mkpath(QStringLiteral(SPINDRIFT_TEST_DATA "/baselines")));
+      ASSERT_TRUE(QDir().mkpath(QString::fromStdString((spindrift::testing::testData() / "baselines").string())));
       ASSERT_TRUE(asBaseline(now).save(baselineFile(name), "png", 0));
     }
     const QImage before(baselineFile(name));

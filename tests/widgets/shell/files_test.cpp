@@ -18,6 +18,7 @@
 
 #include "core/base/error.h"
 #include "core/machine/campaign.h"
+#include "tests/support/source_folder.h"
 #include "tests/widgets/support/story_support.h"
 #include "widgets/jobs/job_bar.h"
 #include "widgets/pages/page.h"
@@ -192,7 +193,7 @@ TEST_F(FilesTest, WhatIsNewIsShownOnceAfterAnUpdate) {
   EXPECT_EQ(newestNews(log, QStringLiteral("en")), QStringLiteral("- new"));
   EXPECT_EQ(newestNews(log, QStringLiteral("de")), QStringLiteral("- neu"));
   // What is shown can be read at a glance: no names of tests or files, no more than fits into the window.
-  QFile file(QStringLiteral(SPINDRIFT_SOURCE_DIR "/CHANGELOG.md"));
+  QFile file(QString::fromStdString((spindrift::testing::sourceFolder() / "CHANGELOG.md").string()));
   ASSERT_TRUE(file.open(QIODevice::ReadOnly));
   const QString changelog = QString::fromUtf8(file.readAll());
   for (const char* language : {"en", "de"}) {

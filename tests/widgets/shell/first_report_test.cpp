@@ -14,6 +14,7 @@
 #include <string>
 
 #include "core/base/atomic_file.h"
+#include "tests/support/source_folder.h"
 #include "tests/widgets/support/story_support.h"
 #include "widgets/jobs/job_bar.h"
 #include "widgets/pages/report/report_page.h"
@@ -82,7 +83,7 @@ class FirstReportTest : public StoryTest, public ::testing::WithParamInterface<c
     EXPECT_EQ(readFile(file).rfind("%PDF", 0), 0U) << file;
     std::printf("%s: %s: %d clicks, %d keys, %.1f s of the program\n", GetParam(), way.c_str(), clicks_, keys_,
                 static_cast<double>(program_ms_) / 1000.0);
-    std::string told = readFile(std::filesystem::path(SPINDRIFT_SOURCE_DIR) / "resources/docs/first_hour.md");
+    std::string told = readFile(spindrift::testing::sourceFolder() / "resources/docs/first_hour.md");
     const std::size_t section =
         told.find(GetParam() == std::string("holes") ? "## Hole bar" : "## Fiducials of your own artwork");
     ASSERT_NE(section, std::string::npos);

@@ -26,6 +26,7 @@
 #include "core/base/text.h"
 #include "core/machine/observation.h"
 #include "core/tasks/task_options.h"
+#include "tests/support/source_folder.h"
 #include "tests/widgets/support/story_support.h"
 #include "widgets/commands/commands.h"
 #include "widgets/common/parts.h"
@@ -476,8 +477,9 @@ TEST(JobsMidwayCases, EveryJobOfAPageIsAmongThem) {
     EXPECT_TRUE(tested.contains(title) || elsewhere.contains(title)) << title.toStdString();
   }
   for (const char* folder : {"pages", "panels", "jobs"}) {
-    QDirIterator files(QStringLiteral(SPINDRIFT_SOURCE_DIR "/widgets/") + QLatin1String(folder),
-                       {QStringLiteral("*.cpp")}, QDir::Files, QDirIterator::Subdirectories);
+    QDirIterator files(
+        QString::fromStdString((spindrift::testing::sourceFolder() / "widgets/").string()) + QLatin1String(folder),
+        {QStringLiteral("*.cpp")}, QDir::Files, QDirIterator::Subdirectories);
     while (files.hasNext()) {
       const QString name = files.next();
       if (name.contains(QRegularExpression(QStringLiteral("/(plant|teaching|capture)/|connections_|closed_loop"))))

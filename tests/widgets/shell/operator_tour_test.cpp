@@ -14,6 +14,7 @@
 #include <set>
 
 #include "core/base/atomic_file.h"
+#include "tests/support/source_folder.h"
 #include "tests/widgets/support/story_support.h"
 #include "widgets/commands/commands.h"
 #include "widgets/common/parts.h"
@@ -34,7 +35,7 @@ namespace spindrift::gui {
 namespace {
 
 std::string readme() {
-  return readFile(std::filesystem::path(SPINDRIFT_SOURCE_DIR) / "README.md");
+  return readFile(spindrift::testing::sourceFolder() / "README.md");
 }
 
 class OperatorTour : public StoryTest {

@@ -19,6 +19,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/source_folder.h"
 #include "tests/support/temp_folder.h"
 #include "tests/widgets/support/picture_compare.h"
 #include "tests/widgets/support/replay.h"
@@ -34,7 +35,7 @@
 namespace spindrift::gui {
 namespace {
 
-const QString kept_folder = QStringLiteral(SPINDRIFT_TEST_DATA "/recordings/");
+const QString kept_folder = QString::fromStdString((spindrift::testing::testData() / "recordings/").string());
 
 std::vector<std::string> recordingNames() {
   std::vector<std::string> names;

@@ -7,7 +7,9 @@ spindrift_quick_to_compile(spindrift_widget_test_headers)
 # A main() that makes a QApplication on the offscreen platform; stands in for that of spindrift_test_support.
 add_library(spindrift_widget_test_support STATIC ${CMAKE_SOURCE_DIR}/tests/widgets/support/widget_test_main.cpp
                                                   ${CMAKE_SOURCE_DIR}/tests/widgets/support/event_loop_watch.cpp
+                                                  ${CMAKE_SOURCE_DIR}/tests/support/source_folder.cpp
                                                   ${CMAKE_SOURCE_DIR}/tests/support/temp_folder.cpp)
+target_compile_definitions(spindrift_widget_test_support PRIVATE SPINDRIFT_SOURCE_DIR="${CMAKE_SOURCE_DIR}")
 set_target_properties(spindrift_widget_test_support PROPERTIES AUTOMOC ON)
 target_link_libraries(spindrift_widget_test_support PUBLIC spindrift_options Spindrift::theme Qt6::Widgets Qt6::Test
                                                            Spindrift::base GTest::gtest GTest::gmock)
@@ -20,8 +22,6 @@ function(spindrift_widget_test name)
   target_precompile_headers(${name} REUSE_FROM spindrift_widget_test_headers)
   spindrift_unity(${name})
   spindrift_quick_to_compile(${name})
-  target_compile_definitions(${name} PRIVATE SPINDRIFT_TEST_DATA="${CMAKE_SOURCE_DIR}/tests/data"
-                                             SPINDRIFT_SOURCE_DIR="${CMAKE_SOURCE_DIR}")
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
   spindrift_register_test(${name} TIMEOUT ${ARG_TIMEOUT} LABELS widgets PARTS ${ARG_PARTS})
 endfunction()
