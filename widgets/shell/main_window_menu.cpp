@@ -21,6 +21,7 @@
 #include "core/reporting/report_language.h"
 #include "core/workflows/manual.h"
 #include "widgets/common/core_sentence.h"
+#include "widgets/common/languages.h"
 #include "widgets/common/parts.h"
 #include "widgets/common/preferences.h"
 #include "widgets/jobs/job_bar.h"
