@@ -131,7 +131,7 @@ CommandResult runLoop(const LoopArguments& arguments, JobContext& job) {
     const LoopResult loop = runClosedLoop(plan, control, who, arguments.out, job, StatusLine());
     result.json = loop.json();
     result.summary = loop.summary();
-    writeFileAtomically(std::filesystem::path(arguments.out) / "report.html", loop.report("Closed loop"));
+    writeFileAtomically(std::filesystem::path(arguments.out) / "report.html", htmlOf(loop.report("Closed loop")));
   } catch (const ConnectionError& error) {
     throw InputError(error.what());
   }

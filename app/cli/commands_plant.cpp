@@ -212,7 +212,7 @@ CommandResult exportStore(const PlantArguments& a, JobContext& job) {
   result.warnings = store.warnings();
   if (!a.html.empty()) {
     if (a.machine.empty()) throw InputError("--html is the report of one machine; allowed: with --machine NAME.");
-    writeFileAtomically(a.html, machineReport(store, a.machine, now()));
+    writeFileAtomically(a.html, htmlOf(machineReport(store, a.machine, now()).report));
     result.summary += a.html + ": report of " + a.machine + "\n";
   }
   nlohmann::json all = {{"format", "spindrift-plant-export"},

@@ -249,7 +249,9 @@ std::string CampaignComparison::summary() const {
   return text;
 }
 
-std::string machineReport(PlantStore& store, const std::string& machine, double now_s) {
+MachineReport machineReport(PlantStore& store, const std::string& machine, double now_s) {
+  ReportNames names;
+  names.within.push_back(machine);
   Report document(machine, "Machine of the plant, as of " + utcDay(now_s));
   for (const MachineState& s : plantOverview(store, now_s)) {
     if (s.machine.name != machine) continue;
@@ -262,6 +264,7 @@ std::string machineReport(PlantStore& store, const std::string& machine, double 
   (void)store.machine(machine);
   const ModelState model = modelState(store, machine, {});
   if (model.model) {
+    names.within.push_back(model.model->campaign_name);
     document.callout(model.reasons.empty() ? CalloutKind::Good : CalloutKind::Attention,
                      model.reasons.empty()
                          ? fmt::format("The model of campaign {} ({}) holds.", model.model->campaign_name,
@@ -273,7 +276,10 @@ std::string machineReport(PlantStore& store, const std::string& machine, double 
   if (!events.empty()) {
     document.section("Events");
     std::vector<ReportRow> rows;
-    for (const MachineEvent& e : events) rows.push_back({utcDay(e.time_s), e.kind, e.note, e.author});
+    for (const MachineEvent& e : events) {
+      rows.push_back({utcDay(e.time_s), e.kind, e.note, e.author});
+      names.whole.insert(names.whole.end(), {e.note, e.author});
+    }
     document.table({"Date", "What", "Note", "Entered by"}, rows);
   }
   document.section("Trends");
@@ -306,7 +312,7 @@ std::string machineReport(PlantStore& store, const std::string& machine, double 
     if (caption.empty()) caption = "No change that is more than chance";
     document.figure(plotPicture({measured, lower, upper}, options), caption + ".");
   }
-  return htmlOf(document);
+  return {std::move(document), std::move(names)};
 }
 
 }  // namespace spindrift

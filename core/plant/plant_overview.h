@@ -11,6 +11,7 @@
 
 #include "core/plant/control_chart.h"
 #include "core/plant/plant_store.h"
+#include "core/reporting/report_language.h"
 
 namespace spindrift {
 
@@ -75,7 +76,11 @@ struct CampaignComparison {
 /// Throws InputError: fewer than two, or one that is not there.
 [[nodiscard]] CampaignComparison compareCampaigns(PlantStore& store, const std::vector<std::int64_t>& campaigns);
 
-/// One machine: state, events, every trend with its changes, model. HTML in one file.
-[[nodiscard]] std::string machineReport(PlantStore& store, const std::string& machine, double now_s);
+/// One machine: state, events, every trend with its changes, model.
+struct MachineReport {
+  Report report;
+  ReportNames names;  ///< what people wrote: the machine, its campaigns, notes
+};
+[[nodiscard]] MachineReport machineReport(PlantStore& store, const std::string& machine, double now_s);
 
 }  // namespace spindrift

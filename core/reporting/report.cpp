@@ -12,11 +12,15 @@
 namespace spindrift {
 namespace {
 
-/// A column of sentences or names: some cell does not begin as a number does.
+/// Letters that a number with its uncertainty, its unit and what it belongs to takes at most.
+constexpr std::size_t longest_number = 40;
+
+/// A column of sentences or names: some cell does not begin as a number does, or says more than a number.
 bool isOfWords(const std::vector<ReportRow>& rows, std::size_t column) {
   return std::any_of(rows.begin(), rows.end(), [&](const ReportRow& row) {
     if (column >= row.size() || row[column].empty()) return false;
     const std::string& cell = row[column].runs.front().text;
+    if (cell.size() > longest_number) return true;
     const bool number = std::isdigit(static_cast<unsigned char>(cell[0])) != 0 || cell[0] == '+' || cell[0] == '<' ||
                         cell.starts_with("\u2212") || cell.starts_with("\u2013") || cell.starts_with("not determined");
     return !number;

@@ -155,4 +155,9 @@ Report inLanguage(const Report& english, const ReportLanguage& language, const R
   });
 }
 
+Report inOfferedLanguage(Report english, const ReportNames& names) {
+  const std::optional<ReportLanguage>& language = offeredReportLanguage();
+  return language ? inLanguage(english, *language, names) : std::move(english);
+}
+
 }  // namespace spindrift

@@ -32,6 +32,8 @@ struct ReportNames {
 /// Headings, texts, callouts, tables, captions and the texts in figures in the language. Ids of effects, code, pictures
 /// and `names` stay.
 [[nodiscard]] Report inLanguage(const Report& english, const ReportLanguage& language, const ReportNames& names = {});
+/// In the language that is offered, as it is where none is: for reports of which a window writes one.
+[[nodiscard]] Report inOfferedLanguage(Report english, const ReportNames& names = {});
 /// A text by itself. An effect that stands by its title, with its id small beside it, keeps both.
 [[nodiscard]] ReportText inLanguage(const ReportText& english, const ReportLanguage& language);
 [[nodiscard]] Drawing inLanguage(const Drawing& english, const ReportLanguage& language);

@@ -40,6 +40,7 @@
 #include "core/control/linuxcnc_control.h"
 #include "core/discrepancy/discrepancy.h"
 #include "core/machine/observation.h"
+#include "core/reporting/report.h"
 #include "core/simulation/scenario.h"
 
 namespace spindrift {
@@ -170,7 +171,7 @@ struct LoopResult {
   /// Keys of FORMATS.md, and stages, cycles, events.
   [[nodiscard]] nlohmann::json json() const;
   [[nodiscard]] std::string summary() const;
-  [[nodiscard]] std::string report(const std::string& title) const;  ///< HTML
+  [[nodiscard]] Report report(const std::string& title) const;
 };
 
 /// Called with every turn, some ten times a second, on the thread of the loop.

@@ -168,7 +168,7 @@ std::string runInside(const LoopDemoOptions& options) {
   const LoopResult result = runClosedLoop(plan, control, who, options.folder / "campaign", job, {}, [](double) {
     return *parseUtc("2026-01-31T08:00:00Z");
   });  // the same every time
-  writeFileAtomically(options.folder / "report.html", result.report("Closed loop"));
+  writeFileAtomically(options.folder / "report.html", htmlOf(result.report("Closed loop")));
   return {};
 }
 

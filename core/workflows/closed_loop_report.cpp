@@ -112,7 +112,7 @@ std::string LoopResult::summary() const {
   return out;
 }
 
-std::string LoopResult::report(const std::string& title) const {
+Report LoopResult::report(const std::string& title) const {
   Report document(title, "measured, modelled and compensated at the control");
   document.section("Result");
   std::vector<ReportRow> rows;
@@ -158,7 +158,7 @@ std::string LoopResult::report(const std::string& title) const {
   std::vector<ReportRow> told;
   for (const LoopEvent& event : events) told.push_back({fmt::format("{:.2f}", event.time_s / 3600.0), event.text});
   document.table({"Time / h", "Event"}, told);
-  return htmlOf(document);
+  return document;
 }
 
 }  // namespace spindrift

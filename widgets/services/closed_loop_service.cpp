@@ -9,6 +9,7 @@
 #include "core/base/atomic_file.h"
 #include "core/base/error.h"
 #include "core/control/linuxcnc_control.h"
+#include "core/reporting/report_language.h"
 #include "core/workflows/loop_state.h"
 #include "widgets/common/core_sentence.h"
 #include "widgets/models/session_model.h"
@@ -125,7 +126,10 @@ void ClosedLoopService::run(MachineControl& control) {
               latest_.result.cycles.size() != so_far.cycles.size())
             latest_.result = so_far;
         });
-    writeFileAtomically(folder / "report.html", result.report("Closed loop"));
+    const Report report = result.report("Closed loop");
+    writeFileAtomically(folder / "report.html", htmlOf(report));
+    if (const auto& language = offeredReportLanguage())
+      writeFileAtomically(folder / ("report." + language->code + ".html"), htmlOf(inLanguage(report, *language)));
     const std::scoped_lock lock(mutex_);
     latest_.result = result;
   } catch (const std::exception& e) {

@@ -208,7 +208,7 @@ TEST_P(PlantOverviewTest, ModelNoLongerHoldsAfterAnEventOrAVerdict) {
   later.results[0].verdict = "unknown";
   (void)store.publish(std::span(&later, 1));
   EXPECT_THAT(modelState(store, "mill", {}).reasons, ::testing::Contains(HasSubstr("has the verdict \"unknown\"")));
-  const std::string html = machineReport(store, "mill", onDay(0.0));
+  const std::string html = htmlOf(machineReport(store, "mill", onDay(0.0)).report);
   EXPECT_THAT(html, HasSubstr("no longer holds"));
   EXPECT_THAT(html, HasSubstr("<svg"));
 }

@@ -47,6 +47,8 @@ TEST(Report, ColumnsOfWordsAreKnown) {
   const auto& table = std::get<TableBlock>(report.blocks().front());
   EXPECT_EQ(table.of_words, (std::vector<bool>{false, false, true}));
   EXPECT_EQ(table.rows[2].size(), 3U) << "every row has every cell";
+  report.table({"Part", "Marks"}, {{"effect", "60 %; half of it for one that is nested with it"}, {"driver", "20 %"}});
+  EXPECT_TRUE(std::get<TableBlock>(report.blocks().back()).of_words[1]) << "a sentence that begins with a number";
 }
 
 /// `sections` sections of every kind of block.

@@ -564,7 +564,8 @@ void PlantPage::writeReport(const QString& file) {
   job.work = [this, address, machine = chosenMachines().front().toStdString(),
               file](JobContext&) -> std::function<void()> {
     PlantStore store = PlantStore::open(address, {.as = PlantRole::Reader});
-    writeFileAtomically(file.toStdString(), machineReport(store, machine, now()));
+    const MachineReport made = machineReport(store, machine, now());
+    writeFileAtomically(file.toStdString(), htmlOf(inOfferedLanguage(made.report, made.names)));
     return [this, file] { callout_->show(Tone::Good, tr("The report is in %1.").arg(file)); };
   };
   job.failed = [this](const QString& sentence) { fail(sentence); };

@@ -4,6 +4,7 @@
 #include "widgets/pages/compensate/closed_loop_page.h"
 
 #include <fcntl.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
@@ -23,6 +24,7 @@
 #include "core/connect/linuxcnc_shell.h"
 #include "core/connect/source.h"
 #include "core/control/private_control.h"
+#include "core/reporting/report_language.h"
 #include "core/workflows/closed_loop_demo.h"
 #include "tests/core/control/stand_in_control.h"
 #include "tests/core/workflows/true_machine.h"
@@ -154,8 +156,13 @@ TEST_F(ClosedLoopPageTest, NothingMovesBeforeItIsConfirmedAndStopFadesToZero) {
   picture("live-off");
   machine_->set(ControlState::Condition::Ready);
   ASSERT_TRUE(waitFor([&] { return page_->callout()->tone() == Tone::Good; }, 10)) << said();
+  offerReportLanguage(ReportLanguage{"de", [](const std::string& text) { return "~" + text; }});
   click(page_->stopButton());
   ASSERT_TRUE(waitFor([&] { return !page_->service().running(); })) << said();
+  offerReportLanguage({});
+  const std::filesystem::path kept = page_->service().folder().toStdString();
+  EXPECT_THAT(readFile(kept / "report.html"), ::testing::HasSubstr(">Measuring cycles<"));
+  EXPECT_THAT(readFile(kept / "report.de.html"), ::testing::HasSubstr(">~Measuring cycles<"));
   EXPECT_LT(machine_->applied_um().cwiseAbs().maxCoeff(), 1e-3);
   EXPECT_NE(said().find("compensation is at zero"), std::string::npos) << said();
   EXPECT_EQ(page_->startButton()->text(), QStringLiteral("Go on …"));

@@ -26,6 +26,7 @@
 #include "core/plant/batch_queue.h"
 #include "core/plant/plant_store.h"
 #include "tests/support/temp_folder.h"
+#include "widgets/common/languages.h"
 #include "widgets/common/parts.h"
 #include "widgets/models/rows_model.h"
 #include "widgets/pages/plant/plant_page.h"
@@ -177,6 +178,16 @@ TEST_F(PlantPageTest, ShowsMachinesTrendsAndBatchesWithoutASession) {
   const std::string report = readFile(folder_ / "gantry.html");
   EXPECT_NE(report.find("gantry north"), std::string::npos);
   EXPECT_NE(report.find("no longer holds"), std::string::npos);
+  // In the language of the window; what people wrote stays.
+  applyLanguage(QStringLiteral("de"));
+  page->writeReport(QString::fromStdString((folder_ / "gantry.de.html").string()));
+  wait();
+  const std::string german = readFile(folder_ / "gantry.de.html");
+  applyLanguage(QStringLiteral("en"));
+  EXPECT_NE(german.find("gantry north"), std::string::npos);
+  EXPECT_NE(german.find("gilt nicht mehr"), std::string::npos);
+  EXPECT_NE(german.find("SN 12"), std::string::npos);
+  EXPECT_EQ(german.find("no longer holds"), std::string::npos);
 
   page->selectMachines({QStringLiteral("gantry north"), QStringLiteral("lathe 4"), QStringLiteral("DMU 50 hall 2")});
   wait();
