@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// A report as a file: one HTML file or pages of a PDF, by the ending of its name.
 #pragma once
 
 #include <string>
