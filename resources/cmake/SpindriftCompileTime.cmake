@@ -9,9 +9,10 @@ find_program(SPINDRIFT_CCACHE ccache)
 mark_as_advanced(SPINDRIFT_CCACHE)
 foreach(language C CXX)
   if(SPINDRIFT_CCACHE AND "${CMAKE_${language}_COMPILER_LAUNCHER}" MATCHES "^(ccache)?$")
-    # Without these two kinds of sloppiness, ccache passes every file with a precompiled header on to the compiler. Places below
-    # the top are taken relative to it, so that a second clone finds what the first has compiled.
-    set(CMAKE_${language}_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros
+    # Without the first two kinds of sloppiness, ccache passes every file with a precompiled header on to the compiler; the
+    # third: what is compiled is the same in every language. Places below the top are taken relative to it, so that a second
+    # clone finds what the first has compiled.
+    set(CMAKE_${language}_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros,locale
                                             CCACHE_BASEDIR=${CMAKE_SOURCE_DIR} CCACHE_NOHASHDIR=1 ${SPINDRIFT_CCACHE})
   endif()
 endforeach()
