@@ -8,7 +8,6 @@
 #include <glog/logging.h>
 
 #include <Eigen/QR>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <opencv2/core.hpp>

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/imaging/decoder_parts.h"
+#include "core/math/singular_values.h"
 
 namespace spindrift::decoding {
 namespace {
@@ -57,8 +58,7 @@ std::optional<Eigen::Matrix3d> projectionOf(const std::vector<Subpattern>& ellip
     A.block<1, 3>(2 * k + 1, 3) = p;
     A.block<1, 3>(2 * k + 1, 6) = -onto(1, k) * p;
   }
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(A, Eigen::ComputeFullV);
-  const Eigen::VectorXd h = svd.matrixV().col(8);
+  const Eigen::VectorXd h = singularValues(A, RightVectors::Full).right.col(8);
   Eigen::Matrix3d projection;
   projection << h(0), h(1), h(2), h(3), h(4), h(5), h(6), h(7), h(8);
   return Eigen::Matrix3d(onto_back * projection * from_back.inverse());

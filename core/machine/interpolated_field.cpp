@@ -3,12 +3,12 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "core/base/error.h"
+#include "core/math/singular_values.h"
 
 namespace spindrift {
 namespace {
@@ -108,7 +108,7 @@ bool spreadsOverPlane(const std::vector<ScatteredValue>& values) {
     places.row(static_cast<Index>(i)) = values[i].position_mm.head<2>().transpose();
   }
   places.rowwise() -= places.colwise().mean().eval();
-  const Eigen::Vector2d extent = Eigen::JacobiSVD<Eigen::MatrixX2d>(places).singularValues();
+  const Eigen::Vector2d extent = singularValues(places).values;
   return extent[1] > 0.02 * extent[0];
 }
 

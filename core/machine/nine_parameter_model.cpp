@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <Eigen/Cholesky>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -19,6 +18,7 @@
 #include "core/math/distributions.h"
 #include "core/math/lack_of_fit.h"
 #include "core/math/least_squares.h"
+#include "core/math/singular_values.h"
 
 namespace spindrift {
 namespace {
@@ -50,13 +50,10 @@ Eigen::MatrixXd gainOf(const Eigen::MatrixXd& A, const Eigen::MatrixXd& covarian
   for (Eigen::Index j = 0; j < scale.size(); ++j) {
     if (!(scale(j) > 0.0)) scale(j) = 1.0;
   }
-  Eigen::BDCSVD<Eigen::MatrixXd> svd(whitened * scale.cwiseInverse().asDiagonal(),
-                                     Eigen::ComputeThinU | Eigen::ComputeThinV);
-  Eigen::VectorXd inverse = svd.singularValues();
-  for (Eigen::Index k = 0; k < inverse.size(); ++k) {
-    inverse(k) = inverse(k) > rank_tolerance * svd.singularValues()(0) ? 1.0 / inverse(k) : 0.0;
-  }
-  const Eigen::MatrixXd pseudo = svd.matrixV() * inverse.asDiagonal() * svd.matrixU().transpose();
+  const SingularValues svd = singularValues(whitened * scale.cwiseInverse().asDiagonal());
+  const Eigen::Index rank = svd.rank(rank_tolerance);
+  const Eigen::MatrixXd pseudo = svd.right.leftCols(rank) * svd.values.head(rank).cwiseInverse().asDiagonal() *
+                                 svd.left.leftCols(rank).transpose();
   // pinv(L^-1 A) L^-1 = (L^-T pinv^T)^T
   const Eigen::MatrixXd unwhitened = cholesky.matrixL().transpose().solve(pseudo.transpose());
   return scale.cwiseInverse().asDiagonal() * unwhitened.transpose();
@@ -602,11 +599,11 @@ NineParameterComparison compareNineParameters(const ObservationSet& observations
     }
   }
   if (n > 0) {
-    const Eigen::JacobiSVD<Eigen::MatrixXd> svd(C, Eigen::ComputeThinU);
+    const SingularValues svd = singularValues(C);
     for (Eigen::Index k = 0; k < n; ++k) {
-      if (!(svd.singularValues()(k) > 1e-9 * std::max(1.0, svd.singularValues()(0)))) break;
-      const double part = svd.matrixU().col(k).dot(d);
-      comparison.chi2 += part * part / svd.singularValues()(k);
+      if (!(svd.values(k) > 1e-9 * std::max(1.0, svd.values(0)))) break;
+      const double part = svd.left.col(k).dot(d);
+      comparison.chi2 += part * part / svd.values(k);
       ++comparison.degrees_of_freedom;
     }
     if (comparison.degrees_of_freedom > 0) {

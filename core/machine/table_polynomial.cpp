@@ -5,7 +5,6 @@
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/QR>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -14,6 +13,7 @@
 #include "core/base/json_reader.h"
 #include "core/base/text.h"
 #include "core/math/least_squares.h"
+#include "core/math/singular_values.h"
 
 namespace spindrift {
 namespace {
@@ -128,9 +128,7 @@ Eigen::MatrixXd columnsOf(const NineParameterFit& fit, const std::vector<std::si
   }
   const Eigen::VectorXd norms = A.colwise().norm();
   if (!(norms.minCoeff() > 0.0)) return {};
-  const Eigen::BDCSVD<Eigen::MatrixXd> svd(A * norms.cwiseInverse().asDiagonal());
-  const auto& s = svd.singularValues();
-  if (!(s(s.size() - 1) > rank_tolerance * s(0))) return {};
+  if (singularValues(A * norms.cwiseInverse().asDiagonal()).rank(rank_tolerance) < A.cols()) return {};
   return A;
 }
 

@@ -2,9 +2,10 @@
 #include "core/math/least_squares.h"
 
 #include <Eigen/Cholesky>
-#include <Eigen/SVD>
 #include <cmath>
 #include <limits>
+
+#include "core/math/singular_values.h"
 
 namespace spindrift {
 
@@ -23,20 +24,18 @@ LinearFitResult solveWhitened(const Eigen::MatrixXd& A, const Eigen::VectorXd& y
   }
   const Eigen::MatrixXd scaled = A * scale.cwiseInverse().asDiagonal();
   // Full V is wanted even when there are fewer rows than columns: its last columns span the null space.
-  Eigen::BDCSVD<Eigen::MatrixXd> decomposition(scaled, Eigen::ComputeThinU | Eigen::ComputeFullV);
-  const Eigen::VectorXd& s = decomposition.singularValues();
-  const Eigen::MatrixXd& V = decomposition.matrixV();
-  const double largest = s.size() > 0 ? s(0) : 0.0;
-  Eigen::Index rank = 0;
-  while (rank < s.size() && s(rank) > options.rank_tolerance * largest && s(rank) > 0.0) ++rank;
+  const SingularValues decomposition = singularValues(scaled, RightVectors::Full);
+  const Eigen::VectorXd& s = decomposition.values;
+  const Eigen::MatrixXd& V = decomposition.right;
+  const Eigen::Index rank = decomposition.rank(options.rank_tolerance);
 
   fit.rank = static_cast<int>(rank);
   fit.degrees_of_freedom = static_cast<int>(A.rows() - rank);
-  fit.condition_number = rank == n && n > 0 ? largest / s(n - 1) : std::numeric_limits<double>::infinity();
+  fit.condition_number = rank == n && n > 0 ? s(0) / s(n - 1) : std::numeric_limits<double>::infinity();
   Eigen::VectorXd z = Eigen::VectorXd::Zero(n);
   Eigen::MatrixXd root = Eigen::MatrixXd::Zero(n, rank);
   if (rank > 0) {
-    const Eigen::VectorXd projected = decomposition.matrixU().leftCols(rank).transpose() * y;
+    const Eigen::VectorXd projected = decomposition.left.leftCols(rank).transpose() * y;
     root = V.leftCols(rank) * s.head(rank).cwiseInverse().asDiagonal();
     z = root * projected;
   }

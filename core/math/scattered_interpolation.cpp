@@ -3,13 +3,13 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/QR>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
 
 #include "core/base/error.h"
+#include "core/math/singular_values.h"
 
 namespace spindrift {
 namespace {
@@ -121,10 +121,10 @@ ScatteredInterpolation::System ScatteredInterpolation::system(std::vector<std::s
   s.centre = centred.rowwise().mean();
   centred.colwise() -= s.centre;
   s.scale = std::max(centred.colwise().norm().maxCoeff(), 1e-300);
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(centred * centred.transpose() / (s.scale * s.scale), Eigen::ComputeFullU);
+  const SingularValues svd = singularValues(centred * centred.transpose() / (s.scale * s.scale));
   Eigen::Index spread = 0;
-  while (spread < 3 && std::sqrt(svd.singularValues()[spread]) > flat * std::sqrt(static_cast<double>(n))) ++spread;
-  s.directions = svd.matrixU().leftCols(spread);
+  while (spread < 3 && std::sqrt(svd.values[spread]) > flat * std::sqrt(static_cast<double>(n))) ++spread;
+  s.directions = svd.left.leftCols(spread);
   Eigen::MatrixXd m = Eigen::MatrixXd::Zero(n + 1 + spread, n + 1 + spread);
   for (Eigen::Index i = 0; i < n; ++i) {
     for (Eigen::Index j = 0; j < i; ++j) {

@@ -24,15 +24,15 @@ struct SmoothedSignal {
 
 /// Whittaker's smoother (the discrete smoothing spline: sum of squared distances plus bandwidth^4 times that of second
 /// derivatives), as smooth as the noise of the readings allows: the largest bandwidth, up to `most_bandwidth_s`, at
-/// which what is taken away is no larger than that noise (of coarsely rounded readings, three standard deviations of its
-/// sum of squares more), in all and over every two dozen readings; where the signal jumps, less is taken away. Times
-/// increase, s; a gap in them is bridged smoothly. Times that do not increase, or readings without noise, come back as
-/// they are. Where the signal is smooth the error is noise / sqrt(3.8 bandwidth / step), the variance of the equivalent
-/// kernel (Silverman 1984).
-/// That error, and how long it follows itself, is found by a parametric bootstrap: noise on the smooth signal, rounded
-/// to the readings' resolution, and smoothed again. Of slow signals rounded coarsely it is no white noise. Where the
-/// signal bends the error is larger than told, by a quarter or so; it is 0 where readings come back for their times.
-/// Sources: Whittaker 1923; Reinsch 1967 (as smooth as the noise allows); Efron 1979 (bootstrap).
+/// which what is taken away is no larger than that noise (of coarsely rounded readings, three standard deviations of
+/// its sum of squares more), in all and over every two dozen readings; where the signal jumps, less is taken away.
+/// Times increase, s; a gap in them is bridged smoothly. Times that do not increase, or readings without noise, come
+/// back as they are. Where the signal is smooth the error is noise / sqrt(3.8 bandwidth / step), the variance of the
+/// equivalent kernel (Silverman 1984). That error, and how long it follows itself, is found by a parametric bootstrap:
+/// noise on the smooth signal, rounded to the readings' resolution, and smoothed again. Of slow signals rounded
+/// coarsely it is no white noise. Where the signal bends the error is larger than told, by a quarter or so; it is 0
+/// where readings come back for their times. Sources: Whittaker 1923; Reinsch 1967 (as smooth as the noise allows);
+/// Efron 1979 (bootstrap).
 [[nodiscard]] SmoothedSignal smoothWithinNoise(std::span<const double> time_s, std::span<const double> readings,
                                                double most_bandwidth_s);
 

@@ -5,10 +5,11 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "core/math/singular_values.h"
 
 namespace spindrift {
 namespace {
@@ -59,12 +60,10 @@ class DriftFinder {
         continue;
       }
       const Eigen::MatrixXd effects = effectsOf(fit, k, changeInside(fit, k));
-      const Eigen::JacobiSVD<Eigen::MatrixXd> svd(effects, Eigen::ComputeThinU);
+      const SingularValues svd = singularValues(effects);
       Eigen::Index rank = 0;
-      while (rank < svd.singularValues().size() && svd.singularValues()(rank) * std::end(factors)[-1] > negligible) {
-        ++rank;
-      }
-      found.emplace_back(svd.matrixU().leftCols(rank) * svd.singularValues().head(rank).asDiagonal());
+      while (rank < svd.values.size() && svd.values(rank) * std::end(factors)[-1] > negligible) ++rank;
+      found.emplace_back(svd.left.leftCols(rank) * svd.values.head(rank).asDiagonal());
     }
     return found;
   }
@@ -146,12 +145,12 @@ class DriftFinder {
     }
     if (A.rows() == 0) return;  // as the fit without drift has it
     normaliseColumns(A);
-    const Eigen::JacobiSVD<Eigen::MatrixXd> svd(A, Eigen::ComputeThinU | Eigen::ComputeFullV);
-    const auto& s = svd.singularValues();
-    const bool full = s.size() == n && s(n - 1) > options_.rank_tolerance * s(0);
+    const SingularValues svd = singularValues(A, RightVectors::Full);
+    const Eigen::VectorXd& s = svd.values;
+    const bool full = svd.rank(options_.rank_tolerance) == n;
     CycleSolution& solution = fit.cycles[static_cast<std::size_t>(cycle)];
     solution.condition_number = full ? s(0) / s(n - 1) : std::numeric_limits<double>::infinity();
-    solution.weakest = svd.matrixV().col(n - 1);
+    solution.weakest = svd.right.col(n - 1);
   }
 
  private:
@@ -323,13 +322,10 @@ class DriftFinder {
     range.basis.resize(A.rows(), 0);
     if (A.cols() == 0 || A.rows() == 0) return range;
     if (normalise) normaliseColumns(A);
-    const Eigen::JacobiSVD<Eigen::MatrixXd> svd(A, Eigen::ComputeThinU);
-    const auto& s = svd.singularValues();
-    Eigen::Index rank = 0;
-    while (rank < s.size() && s(rank) > options_.rank_tolerance * s(0) && s(rank) > 0.0) {
-      range.information += 2.0 * std::log(s(rank++));
-    }
-    range.basis = svd.matrixU().leftCols(rank);
+    const SingularValues svd = singularValues(A);
+    const Eigen::Index rank = svd.rank(options_.rank_tolerance);
+    range.information = 2.0 * svd.values.head(rank).array().log().sum();
+    range.basis = svd.left.leftCols(rank);
     return range;
   }
 

@@ -5,11 +5,11 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "core/math/singular_values.h"
 #include "core/math/statistics.h"
 
 namespace spindrift {
@@ -242,15 +242,14 @@ class Solver {
       part.weakest = part.null.col(n - 1);
       return;
     }
-    const Eigen::JacobiSVD<Eigen::MatrixXd> svd(part.A, Eigen::ComputeThinU | Eigen::ComputeFullV);
-    const auto& s = svd.singularValues();
-    Eigen::Index rank = 0;
-    while (rank < s.size() && s(rank) > options_.rank_tolerance * s(0) && s(rank) > 0.0) ++rank;
-    part.range = svd.matrixU().leftCols(rank);
-    part.inverse = svd.matrixV().leftCols(rank) * s.head(rank).cwiseInverse().asDiagonal() * part.range.transpose();
-    part.null = svd.matrixV().rightCols(n - rank);
+    const SingularValues svd = singularValues(part.A, RightVectors::Full);
+    const Eigen::VectorXd& s = svd.values;
+    const Eigen::Index rank = svd.rank(options_.rank_tolerance);
+    part.range = svd.left.leftCols(rank);
+    part.inverse = svd.right.leftCols(rank) * s.head(rank).cwiseInverse().asDiagonal() * part.range.transpose();
+    part.null = svd.right.rightCols(n - rank);
     part.condition = rank == n ? s(0) / s(n - 1) : std::numeric_limits<double>::infinity();
-    part.weakest = svd.matrixV().col(n - 1);
+    part.weakest = svd.right.col(n - 1);
   }
 
   void solve() {

@@ -3,13 +3,13 @@
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "core/base/random.h"
 #include "core/base/units.h"
+#include "core/math/singular_values.h"
 #include "core/math/statistics.h"
 
 namespace spindrift {
@@ -40,12 +40,8 @@ Eigen::MatrixXd designOf(const std::vector<PlacedHeight>& heights, const Eigen::
 
 /// Only the combinations of the columns that the rows tell apart.
 Eigen::MatrixXd reduced(const Eigen::MatrixXd& design) {
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(design, Eigen::ComputeThinV);
-  Eigen::Index rank = 0;
-  while (rank < svd.singularValues().size() && svd.singularValues()(rank) > rank_tolerance * svd.singularValues()(0)) {
-    ++rank;
-  }
-  return design * svd.matrixV().leftCols(rank);
+  const SingularValues svd = singularValues(design);
+  return design * svd.right.leftCols(svd.rank(rank_tolerance));
 }
 
 /// The absolute residuals of the best plane over subsets: that with which most heights agree, then least median of
@@ -125,13 +121,12 @@ std::vector<SurfaceVerdict> judgeSurfaceHeights(const std::vector<PlacedHeight>&
   for (Eigen::Index i = 0; i < n; ++i) {
     const Rows others = without(agreeing, i);
     const Eigen::MatrixXd A = design(others, Eigen::all);
-    const Eigen::JacobiSVD<Eigen::MatrixXd> svd(A, Eigen::ComputeThinU | Eigen::ComputeThinV);
     if (static_cast<Eigen::Index>(others.size()) < p + 2) continue;
-    if (!(svd.singularValues()(p - 1) > 0.5 * rank_tolerance * svd.singularValues()(0))) continue;
-    const Eigen::VectorXd x = svd.solve(y(others));
+    const SingularValues svd = singularValues(A);
+    if (svd.rank(0.5 * rank_tolerance) < p) continue;
+    const Eigen::VectorXd x = svd.right * (svd.left.transpose() * y(others)).cwiseQuotient(svd.values);
     const double spread = (y(others) - A * x).norm() / std::sqrt(static_cast<double>(A.rows() - p));
-    const Eigen::VectorXd weights =
-        (svd.matrixV().transpose() * design.row(i).transpose()).cwiseQuotient(svd.singularValues());
+    const Eigen::VectorXd weights = (svd.right.transpose() * design.row(i).transpose()).cwiseQuotient(svd.values);
     SurfaceVerdict& v = verdicts[static_cast<std::size_t>(i)];
     v.judged = true;
     v.others = static_cast<int>(others.size());

@@ -10,6 +10,7 @@
 
 #include "core/base/error.h"
 #include "core/base/random.h"
+#include "core/math/singular_values.h"
 #include "core/thermal/thermal_model.h"
 
 namespace spindrift {
@@ -65,16 +66,13 @@ Groups prepare(const TimeSeries& series, const std::string& output, const std::v
       for (Index i = 0; i < n; ++i) X(i, static_cast<Index>(k)) = x[used[static_cast<std::size_t>(i)]];
       X.col(static_cast<Index>(k)).array() -= X.col(static_cast<Index>(k)).mean();
     }
-    const Eigen::JacobiSVD<Eigen::MatrixXd> svd(X, Eigen::ComputeThinU);
-    const double largest = svd.singularValues()[0];
-    if (!(largest > 1e-9 * std::sqrt(static_cast<double>(n)))) {
+    const SingularValues svd = singularValues(X);
+    if (!(svd.values[0] > 1e-9 * std::sqrt(static_cast<double>(n)))) {
       g.refused.push_back(name);
       continue;
     }
-    Index rank = 0;
-    while (rank < svd.singularValues().size() && svd.singularValues()[rank] > 1e-2 * largest) ++rank;
     g.names.push_back(name);
-    g.X.push_back(svd.matrixU().leftCols(rank) * std::sqrt(static_cast<double>(n)));
+    g.X.push_back(svd.left.leftCols(svd.rank(1e-2)) * std::sqrt(static_cast<double>(n)));
   }
   if (g.X.empty())
     throw InputError({series.file, ""},
