@@ -56,7 +56,9 @@ struct formatter<spindrift::PrintedNumber> {
     const auto starts = [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; };
     const auto length = static_cast<std::size_t>(std::count_if(text.begin(), text.end(), starts));
     const std::string blanks(length < width_ ? width_ - length : 0, ' ');
-    return fmt::format_to(context.out(), "{}{}", left_ ? text : blanks, left_ ? blanks : text);
+    // Not fmt::format_to: every user would compile the formatter of every type once more.
+    auto out = std::copy_n((left_ ? text : blanks).begin(), (left_ ? text : blanks).size(), context.out());
+    return std::copy_n((left_ ? blanks : text).begin(), (left_ ? blanks : text).size(), out);
   }
 
  private:

@@ -94,16 +94,15 @@ constexpr const char* outer_film = "h_air";
 
 std::string materialsOf(bool heat) {
   std::string text;
-  const auto out = std::back_inserter(text);
   const auto add = [&](const char* name, const char* conductivity, const char* capacity, const char* density,
                        const char* elastic, const char* expansion) {
-    fmt::format_to(out, "*MATERIAL, NAME={}\n", name);
+    text += fmt::format("*MATERIAL, NAME={}\n", name);
     if (heat) {
-      fmt::format_to(out, "*CONDUCTIVITY\n{}\n*SPECIFIC HEAT\n{}\n*DENSITY\n{}\n", conductivity, capacity, density);
+      text += fmt::format("*CONDUCTIVITY\n{}\n*SPECIFIC HEAT\n{}\n*DENSITY\n{}\n", conductivity, capacity, density);
     } else {
-      fmt::format_to(out, "*ELASTIC\n{}\n*EXPANSION, ZERO=0.\n{}\n", elastic, expansion);
+      text += fmt::format("*ELASTIC\n{}\n*EXPANSION, ZERO=0.\n{}\n", elastic, expansion);
     }
-    fmt::format_to(out, "*SOLID SECTION, ELSET={0}, MATERIAL={0}\n", name);
+    text += fmt::format("*SOLID SECTION, ELSET={0}, MATERIAL={0}\n", name);
   };
   add("IRON", "{{k_iron}}", "{{cp_iron*1e6}}", "7.2e-9", "1.2e5, 0.26", "{{alpha_iron*1e-6}}");
   add("STEEL", "46.", "4.7e8", "7.85e-9", "2.1e5, 0.29", "{{alpha_steel*1e-6}}");
@@ -119,9 +118,8 @@ std::string headOf(const char* what, bool heat) {
 
 std::string heatTemplate(const CFrameDeckOptions& options, const CFrameMachine& machine) {
   std::string text = headOf("temperatures", true);
-  const auto out = std::back_inserter(text);
   for (const char* table : {"ROOM", "FRICTION", "MOTOR", "SUN", "COOLANT"}) {
-    fmt::format_to(out, "*AMPLITUDE, NAME={0}, TIME=TOTAL TIME\n{{{{table:{0}}}}}\n", table);
+    text += fmt::format("*AMPLITUDE, NAME={0}, TIME=TOTAL TIME\n{{{{table:{0}}}}}\n", table);
   }
   const std::string step =
       fmt::format("*STEP, INC={}\n*HEAT TRANSFER, DIRECT, SOLVER=ITERATIVE CHOLESKY\n{:.10g}, {:.10g}\n",
@@ -132,8 +130,8 @@ std::string heatTemplate(const CFrameDeckOptions& options, const CFrameMachine& 
   text += "** air in the room and in the hollows\n*FILM, AMPLITUDE=ROOM\n";
   for (const auto& [name, group] : machine.faces()) {
     if (name.starts_with("WET")) continue;
-    fmt::format_to(out, "{}, F{}, {{{{room_gain}}}}, {{{{{}*1e-3}}}}\n", name, group.side,
-                   group.in_cavity ? inner_film : outer_film);
+    text += fmt::format("{}, F{}, {{{{room_gain}}}}, {{{{{}*1e-3}}}}\n", name, group.side,
+                        group.in_cavity ? inner_film : outer_film);
   }
   text +=
       "** coolant while it runs\n*FILM, FILM AMPLITUDE=COOLANT\nWET_2, F2, {{coolant_K}}, {{h_coolant*1e-3}}\n"
@@ -149,26 +147,24 @@ std::string heatTemplate(const CFrameDeckOptions& options, const CFrameMachine& 
 
 std::string mechTemplate(const CFrameDeckOptions& options, const CFrameMachine& machine) {
   std::string text = headOf("displacements", false);
-  const auto out = std::back_inserter(text);
   const std::array<std::size_t, 3> feet = machine.feet();
-  fmt::format_to(out,
-                 "** three feet: 3, 2 and 1 direction held\n*BOUNDARY\n{}, 1, 3\n{}, 2, 3\n{}, 3, 3\n"
-                 "** one step per state; BSTEP counts the steps of heat.inp\n",
-                 feet[0] + 1, feet[1] + 1, feet[2] + 1);
+  text += fmt::format(
+      "** three feet: 3, 2 and 1 direction held\n*BOUNDARY\n{}, 1, 3\n{}, 2, 3\n{}, 3, 3\n"
+      "** one step per state; BSTEP counts the steps of heat.inp\n",
+      feet[0] + 1, feet[1] + 1, feet[2] + 1);
   for (int k = 1; k <= options.states; ++k) {
-    fmt::format_to(
-        out, "*STEP\n*STATIC\n*TEMPERATURE, FILE=heat.frd, BSTEP={}\n*NODE PRINT, NSET=OBSERVED\nU\n*END STEP\n", k);
+    text += fmt::format(
+        "*STEP\n*STATIC\n*TEMPERATURE, FILE=heat.frd, BSTEP={}\n*NODE PRINT, NSET=OBSERVED\nU\n*END STEP\n", k);
   }
   return text;
 }
 
 std::string observeCsv(const CFrameMachine& machine) {
   std::string text = "point,component,node,dof,weight\n";
-  const auto out = std::back_inserter(text);
   for (const CFrameObserved& row : machine.observed()) {
     for (const auto& [key, weight] : row.weights) {
-      fmt::format_to(out, "{},{},{},{},{:.10g}\n", row.point, toString(row.component), key.first + 1, key.second + 1,
-                     weight);
+      text += fmt::format("{},{},{},{},{:.10g}\n", row.point, toString(row.component), key.first + 1, key.second + 1,
+                          weight);
     }
   }
   return text;

@@ -141,10 +141,7 @@ std::array<Eigen::Vector3d, 4> level(double half_x, double half_y, double z) {
 /// "1, 2, 3,\n4" with twelve to a line.
 void appendList(std::string& text, const std::vector<std::size_t>& ids_from_0) {
   for (std::size_t i = 0; i < ids_from_0.size(); ++i) {
-    fmt::format_to(std::back_inserter(text), "{}{}", ids_from_0[i] + 1,
-                   i + 1 == ids_from_0.size() ? "\n"
-                   : i % 12 == 11             ? ",\n"
-                                              : ", ");
+    text += fmt::format("{}{}", ids_from_0[i] + 1, i + 1 == ids_from_0.size() ? "\n" : i % 12 == 11 ? ",\n" : ", ");
   }
 }
 
@@ -282,27 +279,26 @@ std::string CFrameMachine::meshText() const {
   std::string text =
       "** C-frame machining centre, mm, frame of the mesh: axes of the machine, origin on top of the "
       "table under the spindle\n*NODE, NSET=ALL\n";
-  const auto out = std::back_inserter(text);
   for (std::size_t i = 0; i < mesh_.nodes_mm().size(); ++i) {
     const Eigen::Vector3d& p = mesh_.nodes_mm()[i];
-    fmt::format_to(out, "{}, {:.10g}, {:.10g}, {:.10g}\n", i + 1, p.x(), p.y(), p.z());
+    text += fmt::format("{}, {:.10g}, {:.10g}, {:.10g}\n", i + 1, p.x(), p.y(), p.z());
   }
   for (const char* material : {iron, steel}) {
-    fmt::format_to(out, "*ELEMENT, TYPE=C3D8, ELSET={}\n", material);
+    text += fmt::format("*ELEMENT, TYPE=C3D8, ELSET={}\n", material);
     for (std::size_t e = 0; e < mesh_.elements().size(); ++e) {
       const BrickElement& element = mesh_.elements()[e];
       if (mesh_.bricks()[element.brick].material != material) continue;
-      fmt::format_to(out, "{}", e + 1);
-      for (const std::size_t node : element.nodes) fmt::format_to(out, ", {}", node + 1);
+      text += fmt::format("{}", e + 1);
+      for (const std::size_t node : element.nodes) text += fmt::format(", {}", node + 1);
       text += '\n';
     }
   }
   for (const auto& [name, group] : faces_) {
-    fmt::format_to(out, "*ELSET, ELSET={}\n", name);
+    text += fmt::format("*ELSET, ELSET={}\n", name);
     appendList(text, group.elements);
   }
   for (const char* part : {"BEARING", "MOTOR"}) {
-    fmt::format_to(out, "*ELSET, ELSET={}\n", part);
+    text += fmt::format("*ELSET, ELSET={}\n", part);
     appendList(text, elementsOf(part));
   }
   text += "*NSET, NSET=OBSERVED\n";

@@ -14,17 +14,15 @@
 namespace spindrift {
 namespace {
 
-using Output = std::back_insert_iterator<std::string>;
-
 /// Text of DXF entities, mm.
 class DxfWriter {
  public:
-  explicit DxfWriter(std::string& text) : out_(text) {}
+  explicit DxfWriter(std::string& text) : text_(text) {}
 
   void polyline(const char* layer, const std::vector<Eigen::Vector2d>& points_um, double width_um, bool closed) {
     begin(layer, width_um, closed);
     for (const Eigen::Vector2d& p : points_um) vertex(layer, p, 0.0);
-    fmt::format_to(out_, "0\nSEQEND\n8\n{}\n", layer);
+    text_ += fmt::format("0\nSEQEND\n8\n{}\n", layer);
   }
 
   /// A filled disc: a closed polyline of two half circles of half the radius, as wide as the radius.
@@ -32,21 +30,21 @@ class DxfWriter {
     begin(layer, radius_um, true);
     vertex(layer, centre_um - Eigen::Vector2d(0.5 * radius_um, 0.0), 1.0);
     vertex(layer, centre_um + Eigen::Vector2d(0.5 * radius_um, 0.0), 1.0);
-    fmt::format_to(out_, "0\nSEQEND\n8\n{}\n", layer);
+    text_ += fmt::format("0\nSEQEND\n8\n{}\n", layer);
   }
 
  private:
   void begin(const char* layer, double width_um, bool closed) {
     const double width = width_um * mm_per_um;
-    fmt::format_to(out_, "0\nPOLYLINE\n8\n{}\n66\n1\n10\n0.0\n20\n0.0\n30\n0.0\n70\n{}\n40\n{:.7f}\n41\n{:.7f}\n",
-                   layer, closed ? 1 : 0, width, width);
+    text_ += fmt::format("0\nPOLYLINE\n8\n{}\n66\n1\n10\n0.0\n20\n0.0\n30\n0.0\n70\n{}\n40\n{:.7f}\n41\n{:.7f}\n",
+                         layer, closed ? 1 : 0, width, width);
   }
   void vertex(const char* layer, const Eigen::Vector2d& p_um, double bulge) {
-    fmt::format_to(out_, "0\nVERTEX\n8\n{}\n10\n{:.7f}\n20\n{:.7f}\n30\n0.0\n", layer, p_um.x() * mm_per_um,
-                   p_um.y() * mm_per_um);
-    if (bulge != 0.0) fmt::format_to(out_, "42\n{:.1f}\n", bulge);
+    text_ += fmt::format("0\nVERTEX\n8\n{}\n10\n{:.7f}\n20\n{:.7f}\n30\n0.0\n", layer, p_um.x() * mm_per_um,
+                         p_um.y() * mm_per_um);
+    if (bulge != 0.0) text_ += fmt::format("42\n{:.1f}\n", bulge);
   }
-  Output out_;
+  std::string& text_;
 };
 
 /// True at the ends of a stroke and where it turns by more than 20 degrees.
@@ -99,37 +97,36 @@ std::string artworkSvg(const FiducialPattern& pattern) {
   const double width = (pattern.columnCount() - 1) * pattern.pitch_um + 2.0 * margin;
   const double height = (pattern.rowCount() - 1) * pattern.pitch_um + 2.0 * margin;
   std::string text;
-  const Output out(text);
-  fmt::format_to(out,
-                 "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{}mm\" "
-                 "height=\"{}mm\" viewBox=\"{} {} {} {}\">\n<title>Fiducial, rows {} to {}, columns {} to {}, pitch {} "
-                 "um; user unit um</title>\n<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"black\"/>\n<g "
-                 "transform=\"scale(1,-1)\" stroke=\"white\" fill=\"none\" stroke-linecap=\"round\" "
-                 "stroke-linejoin=\"round\">\n",
-                 exactNumber(width * mm_per_um), exactNumber(height * mm_per_um), exactNumber(left),
-                 exactNumber(-bottom - height), exactNumber(width), exactNumber(height), pattern.first_row,
-                 pattern.last_row, pattern.first_column, pattern.last_column, exactNumber(pattern.pitch_um),
-                 exactNumber(left), exactNumber(-bottom - height), exactNumber(width), exactNumber(height));
+  text += fmt::format(
+      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{}mm\" "
+      "height=\"{}mm\" viewBox=\"{} {} {} {}\">\n<title>Fiducial, rows {} to {}, columns {} to {}, pitch {} "
+      "um; user unit um</title>\n<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"black\"/>\n<g "
+      "transform=\"scale(1,-1)\" stroke=\"white\" fill=\"none\" stroke-linecap=\"round\" "
+      "stroke-linejoin=\"round\">\n",
+      exactNumber(width * mm_per_um), exactNumber(height * mm_per_um), exactNumber(left), exactNumber(-bottom - height),
+      exactNumber(width), exactNumber(height), pattern.first_row, pattern.last_row, pattern.first_column,
+      pattern.last_column, exactNumber(pattern.pitch_um), exactNumber(left), exactNumber(-bottom - height),
+      exactNumber(width), exactNumber(height));
   for (int j = pattern.first_circle_row; j <= pattern.last_circle_row; ++j) {
     for (int i = pattern.first_circle_column; i <= pattern.last_circle_column; ++i) {
       const Eigen::Vector2d c = pattern.circleCentre(i, j);
-      fmt::format_to(out, "<circle cx=\"{}\" cy=\"{}\" r=\"{}\" fill=\"white\" stroke=\"none\"/>\n", exactNumber(c.x()),
-                     exactNumber(c.y()), exactNumber(pattern.circle_radius_um));
+      text += fmt::format("<circle cx=\"{}\" cy=\"{}\" r=\"{}\" fill=\"white\" stroke=\"none\"/>\n", exactNumber(c.x()),
+                          exactNumber(c.y()), exactNumber(pattern.circle_radius_um));
     }
   }
   for (int row = pattern.first_row; row <= pattern.last_row; ++row) {
     for (int column = pattern.first_column; column <= pattern.last_column; ++column) {
       const Eigen::Vector2d e = pattern.ellipseCentre(row, column);
-      fmt::format_to(out, "<ellipse cx=\"{}\" cy=\"{}\" rx=\"{}\" ry=\"{}\" stroke-width=\"{}\"/>\n",
-                     exactNumber(e.x()), exactNumber(e.y()), exactNumber(pattern.semi_axis_x_um),
-                     exactNumber(pattern.semi_axis_y_um), exactNumber(pattern.ellipse_line_width_um));
+      text += fmt::format("<ellipse cx=\"{}\" cy=\"{}\" rx=\"{}\" ry=\"{}\" stroke-width=\"{}\"/>\n",
+                          exactNumber(e.x()), exactNumber(e.y()), exactNumber(pattern.semi_axis_x_um),
+                          exactNumber(pattern.semi_axis_y_um), exactNumber(pattern.ellipse_line_width_um));
       const auto digits = FiducialPattern::digitsOf(row, column);
       for (int k = 0; k < 4; ++k) {
         const Eigen::Vector2d d = e + pattern.digitCentre(k);
         for (const PatternStroke& stroke : pattern.digits[digits[k]]) {
-          fmt::format_to(out, "<polyline stroke-width=\"{}\" points=\"", exactNumber(pattern.digit_line_width_um));
-          for (const Eigen::Vector2d& p : stroke) fmt::format_to(out, "{:.4f},{:.4f} ", d.x() + p.x(), d.y() + p.y());
-          fmt::format_to(out, "\"/>\n");
+          text += fmt::format("<polyline stroke-width=\"{}\" points=\"", exactNumber(pattern.digit_line_width_um));
+          for (const Eigen::Vector2d& p : stroke) text += fmt::format("{:.4f},{:.4f} ", d.x() + p.x(), d.y() + p.y());
+          text += "\"/>\n";
         }
       }
     }

@@ -12,15 +12,14 @@ namespace spindrift {
 
 std::string simulationCsv(const std::vector<SimulationRow>& rows, bool by_place) {
   std::string text = by_place ? "time_s,x_mm,y_mm,z_mm,component,predicted\n" : "time_s,point,component,predicted\n";
-  auto out = std::back_inserter(text);
   for (const SimulationRow& row : rows) {
     // What rounding leaves of a zero is none.
     const double predicted = std::abs(row.predicted) < 1e-7 ? 0.0 : row.predicted;
     if (by_place) {
-      fmt::format_to(out, "{},{},{},{},{},{:.6g}\n", row.time_s, row.position_mm.x(), row.position_mm.y(),
-                     row.position_mm.z(), toString(row.component), predicted);
+      text += fmt::format("{},{},{},{},{},{:.6g}\n", row.time_s, row.position_mm.x(), row.position_mm.y(),
+                          row.position_mm.z(), toString(row.component), predicted);
     } else {
-      fmt::format_to(out, "{},{},{},{:.6g}\n", row.time_s, csvField(row.point), toString(row.component), predicted);
+      text += fmt::format("{},{},{},{:.6g}\n", row.time_s, csvField(row.point), toString(row.component), predicted);
     }
   }
   return text;

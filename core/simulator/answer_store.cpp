@@ -73,14 +73,13 @@ void AnswerStore::save(const std::string& key, const ProgramAnswer& answer) cons
   if (folder_.empty()) return;
   std::string text = headOf(answer.rows.size());
   text += answer.by_place ? "time_s,x_mm,y_mm,z_mm,component,predicted\n" : "time_s,point,component,predicted\n";
-  auto out = std::back_inserter(text);
   for (const SimulationRow& row : answer.rows) {
     const std::string place = answer.by_place
                                   ? fmt::format("{},{},{}", exactNumber(row.position_mm.x()),
                                                 exactNumber(row.position_mm.y()), exactNumber(row.position_mm.z()))
                                   : csvField(row.point);
-    fmt::format_to(out, "{},{},{},{}\n", exactNumber(row.time_s), place, toString(row.component),
-                   exactNumber(row.predicted));
+    text += fmt::format("{},{},{},{}\n", exactNumber(row.time_s), place, toString(row.component),
+                        exactNumber(row.predicted));
   }
   try {
     writeFileAtomically(folder_ / (key + ".csv"), text);

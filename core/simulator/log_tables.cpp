@@ -242,7 +242,6 @@ std::map<std::string, std::string> LogTables::text(const TableTimes& times, cons
   for (const TimeTable& table : tables_) {
     const std::vector<double> all = values(table, times, parameters);
     std::string& lines = out[table.name];
-    auto end = std::back_inserter(lines);
     for (std::size_t k = 0; k < all.size(); ++k) {
       const double t = static_cast<double>(k) * times.increment_s;
       if (!std::isfinite(all[k])) {
@@ -252,7 +251,7 @@ std::map<std::string, std::string> LogTables::text(const TableTimes& times, cons
                         table.name, t, table.column.empty() ? "the window" : table.column));
       }
       // CalculiX reads 20 characters of a number.
-      fmt::format_to(end, "{}{:.12g}, {:.12g}", k == 0 ? "" : "\n", t, all[k]);
+      lines += fmt::format("{}{:.12g}, {:.12g}", k == 0 ? "" : "\n", t, all[k]);
     }
   }
   return out;

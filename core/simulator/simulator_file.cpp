@@ -148,12 +148,11 @@ std::string valuesText(const ParameterValues& given) {
 
 std::string placesOf(const ObservationSet& at) {
   std::string text;
-  auto out = std::back_inserter(text);
   for (const Observation& o : at.rows) {
-    fmt::format_to(out, "{} {} {} {} {} {}", o.time_s, o.point, o.position_mm.x(), o.position_mm.y(), o.position_mm.z(),
-                   o.c_deg);
-    fmt::format_to(out, " {} {} {} {} {} {} {}\n", toString(o.component), o.approach.x(), o.approach.y(),
-                   o.approach.z(), o.tool_offset_mm.x(), o.tool_offset_mm.y(), o.tool_offset_mm.z());
+    text += fmt::format("{} {} {} {} {} {}", o.time_s, o.point, o.position_mm.x(), o.position_mm.y(), o.position_mm.z(),
+                        o.c_deg);
+    text += fmt::format(" {} {} {} {} {} {} {}\n", toString(o.component), o.approach.x(), o.approach.y(),
+                        o.approach.z(), o.tool_offset_mm.x(), o.tool_offset_mm.y(), o.tool_offset_mm.z());
   }
   return text;
 }
