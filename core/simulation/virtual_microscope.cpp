@@ -11,6 +11,8 @@
 #include <memory>
 #include <mutex>
 #include <numbers>
+#include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
 
 #include "core/base/error.h"
 #include "core/base/random.h"
@@ -81,7 +83,9 @@ class DistanceTable {
     }
     return least;
   }
-  [[nodiscard]] bool covers(double x, double y) const { return std::abs(x) < half_x_ && std::abs(y) < half_y_; }
+  [[nodiscard]] bool covers(double x, double y, double around = 0.0) const {
+    return std::abs(x) + around < half_x_ && std::abs(y) + around < half_y_;
+  }
   [[nodiscard]] double at(double x, double y) const {
     const double u = x + half_x_;
     const double v = y + half_y_;
@@ -127,6 +131,7 @@ class ArtworkDistance {
     for (const double semi_axis_um : {pattern.semi_axis_x_um, pattern.semi_axis_y_um})
       known_um_ = std::min(known_um_, 0.5 * pattern.pitch_um - semi_axis_um - half);
     known_um_ = std::min(known_um_, 0.5 * pattern.pitch_um - pattern.circle_radius_um);
+    findFreeSpace();
   }
 
   [[nodiscard]] const FiducialPattern& pattern() const { return pattern_; }
@@ -134,12 +139,59 @@ class ArtworkDistance {
   [[nodiscard]] double knownUm() const { return std::max(0.0, known_um_); }
   [[nodiscard]] const DistanceTable& ring() const { return ring_; }
   [[nodiscard]] const DistanceTable& digit(int d) const { return digits_[d]; }
+  /// No mark is nearer to a place than this, whatever the digits are; 0 among the marks.
+  [[nodiscard]] double freeUm(double x, double y) const {
+    const double u = x / pattern_.pitch_um;
+    const double v = y / pattern_.pitch_um;
+    const auto i = static_cast<int>((u - std::floor(u)) * free_.cols);
+    const auto j = static_cast<int>((v - std::floor(v)) * free_.rows);
+    return free_(std::min(j, free_.rows - 1), std::min(i, free_.cols - 1));
+  }
 
  private:
+  /// Every cell of a raster over one pitch in which there may be a mark, and how far the others are from those.
+  void findFreeSpace() {
+    const double pitch = pattern_.pitch_um;
+    const int n = std::clamp(static_cast<int>(pitch / 2.0), 16, 512);
+    const double cell = pitch / n;
+    const double half_diagonal = 0.5 * std::numbers::sqrt2 * cell;
+    cv::Mat1b empty(3 * n, 3 * n);
+    for (int j = 0; j < n; ++j) {
+      for (int i = 0; i < n; ++i) {
+        const bool marked = leastOfAll((i + 0.5) * cell, (j + 0.5) * cell) < half_diagonal + 0.5;
+        for (int k = 0; k < 9; ++k) empty(j + (k / 3) * n, i + (k % 3) * n) = marked ? 0 : 1;
+      }
+    }
+    cv::Mat1f far;
+    cv::distanceTransform(empty, far, cv::DIST_L2, cv::DIST_MASK_PRECISE);
+    free_ = cv::Mat1f(far(cv::Rect(n, n, n, n)) * cell - 2.0 * half_diagonal).clone();
+    free_ = cv::max(free_, 0.0F);
+  }
+
+  /// Distance to the nearest mark there may be at a place of the first pitch, above `reach_um` as far as it is known.
+  [[nodiscard]] double leastOfAll(double x, double y) const {
+    double least = far_um;
+    const auto centred = [&](double value) { return value - pattern_.pitch_um * nearest(value / pattern_.pitch_um); };
+    const double u = centred(x);
+    const double v = centred(y);
+    if (ring_.covers(u, v)) least = ring_.at(u, v);
+    for (const double from_x : {-pattern_.digit_offset_x_um, pattern_.digit_offset_x_um}) {
+      for (const double from_y : {-pattern_.digit_offset_y_um, pattern_.digit_offset_y_um}) {
+        for (const DistanceTable& digit : digits_) {
+          if (digit.covers(u - from_x, v - from_y)) least = std::min(least, digit.at(u - from_x, v - from_y));
+        }
+      }
+    }
+    return std::min(least,
+                    std::hypot(centred(x - pattern_.circle_offset_x_um), centred(y - pattern_.circle_offset_y_um)) -
+                        pattern_.circle_radius_um);
+  }
+
   FiducialPattern pattern_;
   DistanceTable ring_;
   std::array<DistanceTable, 10> digits_;
   double known_um_ = reach_um - 1.0;
+  cv::Mat1f free_;
 };
 
 /// Looks up an artwork along a path: the ellipse and the circle that a place belongs to are those of the place before,
@@ -169,17 +221,41 @@ class ArtworkCursor {
         }
       }
     }
-    if (circle_) {
-      const double u = x - circle_x_;
-      const double v = y - circle_y_;
-      circle = std::sqrt(u * u + v * v) - pattern_.circle_radius_um;
-    }
+    if (circle_) circle = toCircle(x, y);
+    x_ = x;
+    y_ = y;
     near_ = {ring, digit, circle};
     return std::min({ring, digit, circle});
   }
 
-  /// The same of a place no further than `reach_um` from the last one that was looked at, where the distance is below
+  /// The same of places no further than `reach_um` from the last one that was looked at, where the distance is below
   /// `reach_um`; elsewhere anything above it.
+  template <std::size_t N>
+  void besideIt(const std::array<double, N>& x, const std::array<double, N>& y, double reach_um,
+                std::array<double, N>& distance) const {
+    const double seen_um = 2.5 * reach_um;
+    const bool ring = near_[0] < seen_um;
+    const bool digit = near_[1] < seen_um;
+    const bool circle = near_[2] < seen_um;
+    // Mostly one mark is near, and its table holds all of the places.
+    if (ring && !digit && !circle && artwork_.ring().covers(x_ - ellipse_x_, y_ - ellipse_y_, reach_um)) {
+      for (std::size_t k = 0; k < N; ++k) distance[k] = artwork_.ring().at(x[k] - ellipse_x_, y[k] - ellipse_y_);
+    } else if (digit && !ring && !circle && digit_->covers(x_ - digit_x_, y_ - digit_y_, reach_um)) {
+      for (std::size_t k = 0; k < N; ++k) distance[k] = digit_->at(x[k] - digit_x_, y[k] - digit_y_);
+    } else if (circle && !ring && !digit) {
+      for (std::size_t k = 0; k < N; ++k) distance[k] = toCircle(x[k], y[k]);
+    } else {
+      for (std::size_t k = 0; k < N; ++k) distance[k] = besideIt(x[k], y[k], reach_um);
+    }
+  }
+
+ private:
+  [[nodiscard]] double toCircle(double x, double y) const {
+    const double u = x - circle_x_;
+    const double v = y - circle_y_;
+    return std::sqrt(u * u + v * v) - pattern_.circle_radius_um;
+  }
+
   [[nodiscard]] double besideIt(double x, double y, double reach_um) const {
     double best = ArtworkDistance::far_um;
     const double seen_um = 2.5 * reach_um;
@@ -187,15 +263,10 @@ class ArtworkCursor {
       best = artwork_.ring().at(x - ellipse_x_, y - ellipse_y_);
     if (near_[1] < seen_um && digit_->covers(x - digit_x_, y - digit_y_))
       best = std::min(best, digit_->at(x - digit_x_, y - digit_y_));
-    if (near_[2] < seen_um) {
-      const double u = x - circle_x_;
-      const double v = y - circle_y_;
-      best = std::min(best, std::sqrt(u * u + v * v) - pattern_.circle_radius_um);
-    }
+    if (near_[2] < seen_um) best = std::min(best, toCircle(x, y));
     return best;
   }
 
- private:
   void goTo(double x, double y) {
     const double half = 0.4999 * pattern_.pitch_um;  // nearer to its centre than that it is the same for sure
     if (!(std::abs(x - ellipse_x_) < half && std::abs(y - ellipse_y_) < half)) {
@@ -225,7 +296,8 @@ class ArtworkCursor {
   double ellipse_x_ = std::numeric_limits<double>::infinity(), ellipse_y_ = 0.0;
   double circle_x_ = std::numeric_limits<double>::infinity(), circle_y_ = 0.0;
   std::array<const DistanceTable*, 4> digits_{};
-  std::array<double, 3> near_{};  ///< ring, digit and circle of the last place
+  double x_ = 0.0, y_ = 0.0;      ///< the last place
+  std::array<double, 3> near_{};  ///< its ring, digit and circle
   const DistanceTable* digit_ = nullptr;
   double digit_x_ = 0.0, digit_y_ = 0.0;
 };
@@ -252,22 +324,90 @@ struct Canvas {
   std::vector<float> level;
 };
 
-/// Coverage of the artwork averaged over every cell.
-void paintPattern(Canvas& canvas, const ArtworkDistance& artwork, const PatternMap& map, double ground, double mark) {
-  const double cell_px = 1.0 / canvas.fine;
-  const double cell_um = cell_px * map.pixel_length_um;
-  constexpr int parts = 4;
-  const double known_um = artwork.knownUm();
-  const double part_um = cell_um / parts;
-  ArtworkCursor cursor(artwork);
-  // PatternMap::patternOf with the constant parts taken out of the loop.
-  const double turn_c = std::cos(map.tilt_rad);
-  const double turn_s = std::sin(map.tilt_rad);
-  const auto patternOf = [&](double x, double y) {
-    x -= map.centre_x_px;
-    y -= map.centre_y_px;
-    if (map.k1_per_px2 != 0.0) {
-      const double q = map.k1_per_px2 * (x * x + y * y);
+/// Paints the coverage of the artwork averaged over every cell: whole squares of cells at a time where no edge is near.
+class PatternPainter {
+ public:
+  PatternPainter(Canvas& canvas, const ArtworkDistance& artwork, const PatternMap& map, double ground, double mark)
+      : canvas_(canvas),
+        artwork_(artwork),
+        map_(map),
+        mark_(mark - ground),
+        cell_px_(1.0 / canvas.fine),
+        cell_um_(cell_px_ * map.pixel_length_um),
+        known_um_(artwork.knownUm()),
+        turn_c_(std::cos(map.tilt_rad)),
+        turn_s_(std::sin(map.tilt_rad)),
+        cursor_(artwork) {
+    // The parts of a cell turned into the pattern (its own small turn by the distortion does not matter within a cell).
+    for (std::size_t k = 0; k < part_x_.size(); ++k) {
+      const double a = cell_um_ / parts * (static_cast<double>(k % parts) - 0.5 * (parts - 1));
+      const double b = cell_um_ / parts * (static_cast<double>(k / parts) - 0.5 * (parts - 1));
+      part_x_[k] = turn_c_ * a + turn_s_ * b;
+      part_y_[k] = (map.mirrored ? 1.0 : -1.0) * (turn_c_ * b - turn_s_ * a);
+    }
+  }
+
+  void paint() {
+    constexpr int largest = 32;
+    for (int j = 0; j < canvas_.height; j += largest) {
+      for (int i = 0; i < canvas_.width; i += largest) paintSquare(i, j, largest);
+    }
+  }
+
+ private:
+  static constexpr std::size_t parts = 4;  ///< of a cell that an edge goes through, each way
+
+  void paintSquare(int i, int j, int size) {
+    if (i >= canvas_.width || j >= canvas_.height) return;
+    const Eigen::Vector2d p = patternOf((i + 0.5 * size) * cell_px_ - 0.5, (j + 0.5 * size) * cell_px_ - 0.5);
+    // An edge further than 0.75 cells from the centre of a cell does not meet it; the lens stretches a little.
+    const double reach_um = (0.5 * std::numbers::sqrt2 * (size - 1) + 0.75) * cell_um_;
+    if (0.9 * artwork_.freeUm(p.x(), p.y()) >= reach_um) return;
+    if (size == 1 || 0.9 * known_um_ >= reach_um) {
+      const double d = cursor_.at(p.x(), p.y());
+      if ((size == 1 ? std::abs(d) : 0.9 * std::min(std::abs(d), known_um_)) >= reach_um) {
+        if (d < 0.0) add(i, j, size, static_cast<float>(mark_));
+        return;
+      }
+    }
+    if (size == 1) {
+      add(i, j, 1, static_cast<float>(mark_ * coverageAround(p)));
+      return;
+    }
+    const int half = size / 2;
+    paintSquare(i, j, half);
+    paintSquare(i + half, j, half);
+    paintSquare(i, j + half, half);
+    paintSquare(i + half, j + half, half);
+  }
+
+  void add(int i, int j, int size, float level) {
+    const int last = std::min(canvas_.width, i + size);
+    for (int y = j; y < std::min(canvas_.height, j + size); ++y) {
+      float* line = &canvas_.level[static_cast<std::size_t>(y) * canvas_.width];
+      for (int x = i; x < last; ++x) line[x] += level;
+    }
+  }
+
+  /// Of the cell whose centre was looked at last.
+  double coverageAround(const Eigen::Vector2d& p) {
+    for (std::size_t k = 0; k < x_.size(); ++k) {
+      x_[k] = p.x() + part_x_[k];
+      y_[k] = p.y() + part_y_[k];
+    }
+    cursor_.besideIt(x_, y_, cell_um_, distance_);
+    const double parts_per_um = parts / cell_um_;
+    double coverage = 0.0;
+    for (const double part : distance_) coverage += std::clamp(0.5 - part * parts_per_um, 0.0, 1.0);
+    return coverage / (parts * parts);
+  }
+
+  /// PatternMap::patternOf with what is constant taken out.
+  [[nodiscard]] Eigen::Vector2d patternOf(double x, double y) const {
+    x -= map_.centre_x_px;
+    y -= map_.centre_y_px;
+    if (map_.k1_per_px2 != 0.0) {
+      const double q = map_.k1_per_px2 * (x * x + y * y);
       double factor = 1.0 - q * (1.0 - q * (3.0 - 12.0 * q));
       const int steps = std::abs(q) < 0.005 ? 1 : 3;
       for (int k = 0; k < steps; ++k) {
@@ -276,45 +416,19 @@ void paintPattern(Canvas& canvas, const ArtworkDistance& artwork, const PatternM
       x *= factor;
       y *= factor;
     }
-    x -= map.origin_x_px;
-    y -= map.origin_y_px;
-    const double across = map.pixel_length_um * (-turn_s * x + turn_c * y);
-    return Eigen::Vector2d(map.pixel_length_um * (turn_c * x + turn_s * y), map.mirrored ? across : -across);
-  };
-  for (int j = 0; j < canvas.height; ++j) {
-    float* line = &canvas.level[static_cast<std::size_t>(j) * canvas.width];
-    for (int i = 0; i < canvas.width; ++i) {
-      const Eigen::Vector2d p = patternOf((i + 0.5) * cell_px - 0.5, (j + 0.5) * cell_px - 0.5);
-      const double d = cursor.at(p.x(), p.y());
-      double coverage = 0.0;
-      if (std::abs(d) >= 0.75 * cell_um) {
-        // No edge is nearer than d, as far as it is known: the next cells look the same.
-        const double free_um = 0.9 * std::min(std::abs(d), known_um) - 0.75 * cell_um;
-        const int last = std::min(canvas.width - 1, i + std::max(0, static_cast<int>(free_um / cell_um)));
-        if (d < 0.0) {
-          for (int k = i; k <= last; ++k) line[k] += static_cast<float>(mark - ground);
-        }
-        i = last;
-        continue;
-      } else {
-        // Cell corners turned into the pattern (its own small turn by the distortion does not matter within a cell).
-        const double c = turn_c * part_um;
-        const double s = turn_s * part_um;
-        for (int v = 0; v < parts; ++v) {
-          for (int u = 0; u < parts; ++u) {
-            const double a = u - 0.5 * (parts - 1);
-            const double b = v - 0.5 * (parts - 1);
-            const double y = -s * a + c * b;
-            const double part = cursor.besideIt(p.x() + c * a + s * b, p.y() + (map.mirrored ? y : -y), cell_um);
-            coverage += std::clamp(0.5 - part / part_um, 0.0, 1.0);
-          }
-        }
-        coverage /= parts * parts;
-      }
-      line[i] += static_cast<float>((mark - ground) * coverage);
-    }
+    x -= map_.origin_x_px;
+    y -= map_.origin_y_px;
+    const double across = map_.pixel_length_um * (-turn_s_ * x + turn_c_ * y);
+    return {map_.pixel_length_um * (turn_c_ * x + turn_s_ * y), map_.mirrored ? across : -across};
   }
-}
+
+  Canvas& canvas_;
+  const ArtworkDistance& artwork_;
+  const PatternMap& map_;
+  double mark_, cell_px_, cell_um_, known_um_, turn_c_, turn_s_;
+  ArtworkCursor cursor_;
+  std::array<double, parts * parts> part_x_{}, part_y_{}, x_{}, y_{}, distance_{};
+};
 
 /// Draws a shape given by its signed distance (px) with soft edges, `alpha` opaque.
 void paintShape(Canvas& canvas, double x0, double y0, double x1, double y1, double level, double alpha, double softness,
@@ -416,6 +530,22 @@ void paintClutter(Canvas& canvas, const FiducialPattern& pattern, const ArtworkD
   }
 }
 
+/// out[x] = sum of weights[k] terms[k][x], a few x at a time: their sums stay in registers.
+void weightedSum(const std::vector<float>& weights, const std::vector<const float*>& terms, int count, float* out) {
+  constexpr int batch = 16;
+  int x = 0;
+  for (; x + batch <= count; x += batch) {
+    Eigen::Array<float, batch, 1> sum = Eigen::Array<float, batch, 1>::Zero();
+    for (std::size_t k = 0; k < weights.size(); ++k)
+      sum += weights[k] * Eigen::Map<const Eigen::Array<float, batch, 1>>(terms[k] + x);
+    Eigen::Map<Eigen::Array<float, batch, 1>>(out + x) = sum;
+  }
+  for (; x < count; ++x) {
+    out[x] = 0.0F;
+    for (std::size_t k = 0; k < weights.size(); ++k) out[x] += weights[k] * terms[k][x];
+  }
+}
+
 /// Mean over the pixel of the canvas convolved with a Gaussian: one pass along rows, one along columns.
 std::vector<float> expose(const Canvas& canvas, int width, int height, double sigma_px) {
   const int fine = canvas.fine;
@@ -436,28 +566,23 @@ std::vector<float> expose(const Canvas& canvas, int width, int height, double si
   // The cells of a line by their place within the pixel: what a weight is multiplied with stands in a row then.
   const int stride = width + (2 * reach + fine) / fine + 1;
   std::vector<float> parted(static_cast<std::size_t>(stride) * fine);
+  std::vector<const float*> terms(kernel.size());
   for (int j = 0; j < canvas.height; ++j) {
     const float* line = &canvas.level[static_cast<std::size_t>(j) * canvas.width];
     for (int f = 0; f < fine; ++f) {
       for (int m = 0; m < stride; ++m)
         parted[static_cast<std::size_t>(f) * stride + m] = line[std::clamp(m * fine + f - reach, 0, canvas.width - 1)];
     }
-    float* out = &rows[static_cast<std::size_t>(j) * width];
-    for (std::size_t k = 0; k < kernel.size(); ++k) {
-      const float* p = &parted[(k % fine) * stride + k / fine];
-      const float weight = kernel[k];
-      for (int x = 0; x < width; ++x) out[x] += weight * p[x];
-    }
+    for (std::size_t k = 0; k < kernel.size(); ++k) terms[k] = &parted[(k % fine) * stride + k / fine];
+    weightedSum(kernel, terms, width, &rows[static_cast<std::size_t>(j) * width]);
   }
   std::vector<float> image(static_cast<std::size_t>(width) * height, 0.0F);
   for (int y = 0; y < height; ++y) {
-    float* out = &image[static_cast<std::size_t>(y) * width];
     for (std::size_t k = 0; k < kernel.size(); ++k) {
       const int j = std::clamp(y * fine + static_cast<int>(k) - reach, 0, canvas.height - 1);
-      const float* line = &rows[static_cast<std::size_t>(j) * width];
-      const float weight = kernel[k];
-      for (int x = 0; x < width; ++x) out[x] += weight * line[x];
+      terms[k] = &rows[static_cast<std::size_t>(j) * width];
     }
+    weightedSum(kernel, terms, width, &image[static_cast<std::size_t>(y) * width]);
   }
   return image;
 }
@@ -504,9 +629,9 @@ GrayImage renderFiducial(const FiducialPattern& pattern, const MicroscopeScene& 
   canvas.level.assign(static_cast<std::size_t>(canvas.width) * canvas.height, static_cast<float>(scene.ground_level));
   const std::shared_ptr<const ArtworkDistance> tables = artworkOf(pattern);
   const ArtworkDistance& artwork = *tables;
-  paintPattern(canvas, artwork, scene.map, scene.ground_level, scene.mark_level);
+  PatternPainter(canvas, artwork, scene.map, scene.ground_level, scene.mark_level).paint();
   for (const PatternMap& further : scene.further_patterns) {
-    paintPattern(canvas, artwork, further, scene.ground_level, scene.mark_level);
+    PatternPainter(canvas, artwork, further, scene.ground_level, scene.mark_level).paint();
   }
   paintClutter(canvas, pattern, artwork, scene, random);
   std::vector<float> exposed = expose(canvas, scene.width_px, scene.height_px, sigma);
