@@ -177,9 +177,10 @@ class Catalogue {
     if (const auto found = whole_.find(english); found != whole_.end()) return {found->second, english.size()};
     Rendered best;
     for (Entry& entry : entries_) {
-      if (entry.letters > english.size() || !english.contains(entry.key)) continue;
-      if (!entry.english.pieces.front().isEmpty() && !english.startsWith(entry.english.pieces.front())) continue;
-      if (!entry.english.pieces.back().isEmpty() && !english.endsWith(entry.english.pieces.back())) continue;
+      // What costs least comes first: most formats begin with words that few sentences begin with.
+      if (entry.letters > english.size() || !english.startsWith(entry.english.pieces.front()) ||
+          !english.endsWith(entry.english.pieces.back()) || !english.contains(entry.key))
+        continue;
       if (entry.pattern.pattern().isEmpty()) entry.pattern = patternOf(entry.english);
       const QRegularExpressionMatch match = entry.pattern.match(english);
       if (!match.hasMatch()) continue;
