@@ -228,8 +228,9 @@ CandidateLibrary::Entry CandidateLibrary::entryOf(const Effect& effect) const {
       }
       entry.whole[c] += power;
     }
-    dots.noalias() += problem_->nuisanceBasis().middleRows(domain.from, domain.count).transpose() *
-                      entry.columns.middleRows(at, domain.count);
+    const auto& nuisances = problem_->nuisanceParts()[d];
+    const Eigen::MatrixXd here = nuisances.rows.transpose() * entry.columns.middleRows(at, domain.count);
+    for (Index q = 0; q < here.rows(); ++q) dots.row(nuisances.columns[static_cast<std::size_t>(q)]) += here.row(q);
     at += domain.count;
   }
   if (pulses) {
@@ -269,15 +270,24 @@ double CandidateLibrary::choicePrice(const Effect& effect) const {
 std::optional<CandidateFit> CandidateLibrary::bestOf(const Entry& entry, const Given& given) const {
   if (entry.ways.empty()) return std::nullopt;
   const Index columns = entry.columns.cols();
-  Eigen::MatrixXd dots = Eigen::MatrixXd::Zero(given.basis.cols(), columns);
+  // Of the basis only what is not zero where the effect acts.
+  std::vector<Index> place(static_cast<std::size_t>(given.basis.cols()), -1);
+  Index met = 0;
+  for (const std::size_t d : entry.domains) {
+    for (const Index q : given.parts[d].columns) {
+      if (place[static_cast<std::size_t>(q)] < 0) place[static_cast<std::size_t>(q)] = met++;
+    }
+  }
+  Eigen::MatrixXd dots = Eigen::MatrixXd::Zero(met, columns);
   Eigen::VectorXd b = Eigen::VectorXd::Zero(columns);
   Index at = 0;
   for (const std::size_t d : entry.domains) {
     const auto& domain = problem_->domains()[d];
     const auto part = entry.columns.middleRows(at, domain.count);
-    if (given.basis.cols() > 0) {
-      dots.noalias() += given.basis.middleRows(domain.from, domain.count).transpose() * part;
-    }
+    const auto& basis = given.parts[d];
+    const Eigen::MatrixXd here = basis.rows.transpose() * part;
+    for (Index q = 0; q < here.rows(); ++q)
+      dots.row(place[static_cast<std::size_t>(basis.columns[static_cast<std::size_t>(q)])]) += here.row(q);
     b.noalias() += part.transpose() * given.residual.segment(domain.from, domain.count);
     at += domain.count;
   }

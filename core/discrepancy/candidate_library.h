@@ -49,6 +49,7 @@ class CandidateLibrary {
   /// priors, below); `residual` is what they leave, as long.
   struct Given {
     Eigen::MatrixXd basis;
+    std::vector<ResidualProblem::BasisPart> parts;  ///< of the basis
     Eigen::VectorXd residual;
   };
   /// The best way of every effect that has one beside what is given, best first. `skip`: ids that are not tried.

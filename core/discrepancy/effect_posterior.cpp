@@ -79,49 +79,77 @@ struct ErrorProducts {
   Eigen::VectorXd moved;
 };
 
-/// Of the columns of `m` free of two orthonormal bases that are orthogonal to each other and to `left`.
-ErrorProducts errorProducts(const Eigen::MatrixXd& m, const Eigen::MatrixXd& nuisances, const Eigen::MatrixXd& named,
-                            const Eigen::VectorXd& left) {
+/// Of columns (over the units) free of constants, of the nuisances, and of an orthonormal basis that is orthogonal to
+/// both, as `left` is.
+ErrorProducts errorProducts(const ResidualProblem& problem, const Eigen::MatrixXd& columns,
+                            const Eigen::MatrixXd& named, const Eigen::VectorXd& left) {
   ErrorProducts out;
-  out.gram = Eigen::MatrixXd::Zero(m.cols(), m.cols());
-  if (m.cols() == 0) return out;
-  auto lower = out.gram.selfadjointView<Eigen::Lower>();
-  lower.rankUpdate(m.transpose());
-  for (const Eigen::MatrixXd* basis : {&nuisances, &named}) {
-    if (basis->cols() == 0) continue;
-    const Eigen::MatrixXd along = m.transpose() * *basis;
-    lower.rankUpdate(along, -1.0);
+  const Index count = columns.cols();
+  out.gram = Eigen::MatrixXd::Zero(count, count);
+  out.moved = Eigen::VectorXd::Zero(count);
+  if (count == 0) return out;
+  Eigen::MatrixXd nuisances = Eigen::MatrixXd::Zero(problem.nuisanceBasis().cols(), count);
+  Eigen::MatrixXd along = Eigen::MatrixXd::Zero(named.cols(), count);
+  // Domain by domain: most columns, and most nuisances, are of one.
+  for (std::size_t d = 0; d < problem.domains().size(); ++d) {
+    const auto& domain = problem.domains()[d];
+    std::vector<Index> here;
+    for (Index c = 0; c < count; ++c) {
+      if (!columns.col(c).segment(domain.from, domain.count).isZero(0.0)) here.push_back(c);
+    }
+    if (here.empty()) continue;
+    const Eigen::MatrixXd m =
+        problem.withoutConstants(d, columns.middleRows(domain.from, domain.count)(Eigen::all, here));
+    Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(m.cols(), m.cols());
+    gram.selfadjointView<Eigen::Lower>().rankUpdate(m.transpose());
+    const Eigen::VectorXd moved = m.transpose() * left.segment(domain.from, domain.count);
+    const auto& part = problem.nuisanceParts()[d];
+    const Eigen::MatrixXd along_nuisances = part.rows.transpose() * m;
+    const Eigen::MatrixXd along_named = named.middleRows(domain.from, domain.count).transpose() * m;
+    for (Index j = 0; j < m.cols(); ++j) {
+      const Index c = here[static_cast<std::size_t>(j)];
+      for (Index i = j; i < m.cols(); ++i) out.gram(here[static_cast<std::size_t>(i)], c) += gram(i, j);
+      for (std::size_t q = 0; q < part.columns.size(); ++q)
+        nuisances(part.columns[q], c) += along_nuisances(static_cast<Index>(q), j);
+      along.col(c) += along_named.col(j);
+      out.moved[c] += moved[j];
+    }
   }
+  auto lower = out.gram.selfadjointView<Eigen::Lower>();
+  if (nuisances.rows() > 0) lower.rankUpdate(nuisances.transpose(), -1.0);
+  if (along.rows() > 0) lower.rankUpdate(along.transpose(), -1.0);
   out.gram.triangularView<Eigen::StrictlyUpper>() = out.gram.transpose();
-  out.moved = m.transpose() * left;
   return out;
 }
 
 /// Twice the logarithm of the factor by which errors of formulas change the probability of what is left: coefficients ~
 /// N(0, 1) of the columns, of the first `always` in any case, of every further one with probability p.
 double formulaErrorGain(const ErrorProducts& products, Index always, double p) {
-  const auto gainOf = [&](const std::vector<Index>& ways) {
-    Eigen::MatrixXd a = products.gram(ways, ways);
-    a.diagonal().array() += 1.0;
-    const Eigen::LLT<Eigen::MatrixXd> llt(a);
-    const Eigen::VectorXd z = llt.matrixL().solve(Eigen::VectorXd(products.moved(ways)));
-    return z.squaredNorm() - 2.0 * llt.matrixLLT().diagonal().array().log().sum();
-  };
-  std::vector<Index> ways(static_cast<std::size_t>(always));
-  std::iota(ways.begin(), ways.end(), Index{0});
-  double gain = gainOf(ways);
+  // 1 + gram = L L' of the ways that are taken, a row for each: one more way is one more row.
+  const Index count = products.gram.cols();
+  Eigen::MatrixXd rows =
+      Eigen::MatrixXd::Zero(count, count);  // L', a column for each way, so that it lies in one piece
+  Eigen::VectorXd z(count);
+  std::vector<Index> ways;
+  double gain = 0.0;
   double mixed = 0.0;  // of the ways that are there with probability p, over what is taken in `gain`
-  for (Index c = always; c < products.gram.cols(); ++c) {
-    ways.push_back(c);
-    const double with = gainOf(ways);
-    const double more = with - gain;
-    if (more > 0.0) {
-      mixed += 2.0 * std::log(p + (1.0 - p) * std::exp(-0.5 * more));
-      gain = with;
-    } else {
+  for (Index c = 0; c < count; ++c) {
+    const auto taken = static_cast<Index>(ways.size());
+    auto row = rows.col(taken).head(taken);
+    for (Index i = 0; i < taken; ++i) row[i] = products.gram(ways[static_cast<std::size_t>(i)], c);
+    rows.topLeftCorner(taken, taken).transpose().triangularView<Eigen::Lower>().solveInPlace(row);
+    const double own = 1.0 + products.gram(c, c) - row.squaredNorm();  // 1 at least, but for rounding
+    const double pivot = std::sqrt(std::max(own, 0.5));
+    z[taken] = (products.moved[c] - row.dot(z.head(taken))) / pivot;
+    const double more = z[taken] * z[taken] - 2.0 * std::log(pivot);
+    if (c >= always && !(more > 0.0)) {
       mixed += 2.0 * std::log((1.0 - p) + p * std::exp(0.5 * more));
-      ways.pop_back();
+      continue;
     }
+    if (c >= always) mixed += 2.0 * std::log(p + (1.0 - p) * std::exp(-0.5 * more));
+    rows(taken, taken) = pivot;
+    ways.push_back(c);
+    gain += more;
   }
   return gain + mixed;
 }
@@ -405,7 +433,7 @@ double PosteriorSearch::evidenceOf(const JointFit& fit) const {
   const Eigen::MatrixXd elsewhere = crosstalkColumns(fit);
   Eigen::MatrixXd m(problem_->size(), here.cols() + elsewhere.cols());
   m << here, elsewhere;
-  const ErrorProducts errors = errorProducts(problem_->freeOfConstants(m), problem_->nuisanceBasis(), basis, left);
+  const ErrorProducts errors = errorProducts(*problem_, m, basis, left);
   return -left.squaredNorm() + formulaErrorGain(errors, here.cols(), priors_.crosstalk) -
          static_cast<double>(rank) * search_->logN() - priceOf(fit) - imitationPrice(fit);
 }
@@ -452,6 +480,7 @@ CandidateLibrary::Given PosteriorSearch::given(const JointFit& fit) const {
     out.basis.col(used++) = v / norm;
   }
   out.basis.conservativeResize(Eigen::NoChange, used);
+  out.parts = problem_->partsOf(out.basis);
   out.residual = Eigen::VectorXd::Zero(all.rows());
   out.residual.head(rows) = y;
   if (used > 0) out.residual -= out.basis * (out.basis.transpose() * out.residual);

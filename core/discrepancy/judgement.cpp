@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <Eigen/QR>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -13,6 +12,7 @@
 
 #include "core/base/text.h"
 #include "core/base/unit_text.h"
+#include "core/math/singular_values.h"
 #include "core/math/statistics.h"
 
 namespace spindrift {
@@ -365,7 +365,7 @@ std::string patternInScatter(const ResidualProblem& problem, const JointFit& fit
       moved(row[problem.series[u]], column[problem.epoch[u]]) = std::clamp(left[static_cast<Index>(u)], -most, most);
     }
     moved.colwise() -= moved.rowwise().mean().eval();
-    const Eigen::VectorXd singular = Eigen::BDCSVD<Eigen::MatrixXd>(moved).singularValues();
+    const Eigen::VectorXd singular = singularValues(moved).values;
     const auto readings = static_cast<double>(sizes.size());
     const double all = singular.squaredNorm();
     const double beside = all - singular[0] * singular[0];

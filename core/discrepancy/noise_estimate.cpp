@@ -9,6 +9,7 @@
 #include <mutex>
 #include <numbers>
 
+#include "core/discrepancy/bordered_gram.h"
 #include "core/discrepancy/residual_problem.h"
 #include "core/math/statistics.h"
 
@@ -178,35 +179,33 @@ Products drifting(Products products, const Eigen::MatrixXd& factor) {
   return products;
 }
 
-/// -2 ln of the restricted likelihood, up to a constant; the Cholesky factor of the bordered matrix in `factor`.
-double objective(const ComponentData& data, const Products& products, const Parameters& p,
-                 Eigen::LLT<Eigen::MatrixXd>* factor = nullptr) {
-  // Shifts of no size take nothing.
-  const Index left_out = p.shift == 0.0 && factor == nullptr ? data.shifts.cols() : Index{0};
-  const Index s = data.shifts.cols() - left_out;
+/// The Cholesky factor of the bordered matrix of BorderedGram; without rows beyond what numbers can tell apart.
+Eigen::MatrixXd borderedFactor(const ComponentData& data, const Products& products, const Parameters& p) {
+  const Index s = data.shifts.cols();
   const Index m = data.smooth.cols();
   const Index total = s + m + 1;
-  const double scale2 = std::exp(2.0 * p.log_scale);
   Eigen::VectorXd d = Eigen::VectorXd::Ones(total);
   d.head(s).setConstant(p.shift);
   d.segment(s, m).setConstant(p.smooth);
-  Eigen::MatrixXd a = d.asDiagonal() * products.gram.bottomRightCorner(total, total) * d.asDiagonal() / scale2;
+  Eigen::MatrixXd a = d.asDiagonal() * products.gram * d.asDiagonal() / std::exp(2.0 * p.log_scale);
   a.diagonal().head(s + m).array() += 1.0;
   // Readings without any noise leave nothing behind but rounding, of either sign.
   a(total - 1, total - 1) = a(total - 1, total - 1) * (1.0 + 1e-12) + 1e-9;
-  Eigen::LLT<Eigen::MatrixXd> llt(a);
-  if (llt.info() != Eigen::Success) return 1e300;
-  const auto diagonal = llt.matrixLLT().diagonal();
-  const double chi2 = diagonal[total - 1] * diagonal[total - 1];
-  const double log_det = 2.0 * diagonal.head(total - 1).array().log().sum();
-  const auto n = static_cast<double>(data.residual.size() - products.constants.rows());
-  if (factor != nullptr) *factor = std::move(llt);
-  return n * 2.0 * p.log_scale + products.log_det + log_det + chi2 + std::pow(p.log_scale / scale_prior_sd, 2);
+  const Eigen::LLT<Eigen::MatrixXd> llt(a);
+  if (llt.info() != Eigen::Success) return {};
+  return llt.matrixL();
 }
 
 /// Pattern search over the logarithms of scale, shift and smooth part.
 double optimise(const ComponentData& data, const Products& products, bool with_shift, Parameters& p, int rounds) {
-  double best = objective(data, products, p);
+  const BorderedGram gram(products.gram, data.shifts.cols());
+  const auto n = static_cast<double>(data.residual.size() - products.constants.rows());
+  // -2 ln of the restricted likelihood, up to a constant.
+  const auto deviance = [&](const Parameters& at) {
+    return n * 2.0 * at.log_scale + products.log_det + gram.deviance(std::exp(at.log_scale), at.shift, at.smooth) +
+           std::pow(at.log_scale / scale_prior_sd, 2);
+  };
+  double best = deviance(p);
   double step = rounds > 4 ? 0.8 : 0.3;
   for (int round = 0; round < rounds; ++round, step *= 0.5) {
     for (int which = 0; which < 3; ++which) {
@@ -220,7 +219,7 @@ double optimise(const ComponentData& data, const Products& products, bool with_s
           if (trial.log_scale < std::log(data.least_scale)) break;
           if (which == 1) trial.shift *= factor;
           if (which == 2) trial.smooth *= factor;
-          const double value = objective(data, products, trial);
+          const double value = deviance(trial);
           if (!(value < best - 1e-3)) break;
           best = value;
           p = trial;
@@ -234,14 +233,12 @@ double optimise(const ComponentData& data, const Products& products, bool with_s
 /// The residual without constants, shifts and common smooth part, um or urad.
 Eigen::VectorXd withoutCommon(const ResidualProblem& problem, const ComponentData& data, const Products& products,
                               const Parameters& p) {
-  Eigen::LLT<Eigen::MatrixXd> factor;
-  objective(data, products, p, &factor);
-  if (factor.rows() == 0) return data.residual;  // beyond what numbers can tell apart: nothing is taken out
+  const Eigen::MatrixXd l = borderedFactor(data, products, p);
+  if (l.rows() == 0) return data.residual;  // beyond what numbers can tell apart: nothing is taken out
   const Index s = data.shifts.cols();
   const Index m = data.smooth.cols();
   const Index total = products.gram.cols();
   // The last row of the factor holds L^-1 [F X]' r; solving with the rest gives the coefficients.
-  const Eigen::MatrixXd l = factor.matrixL();
   const Eigen::VectorXd z = l.row(total - 1).head(total - 1).transpose();
   Eigen::VectorXd b = l.topLeftCorner(total - 1, total - 1).transpose().triangularView<Eigen::Upper>().solve(z);
   b.head(s) *= p.shift;

@@ -801,11 +801,21 @@ void ResidualProblem::setNuisances(const std::vector<NuisanceColumn>& columns) {
     augmented(n + prior++, static_cast<Index>(c)) = 1.0 / columns[c].prior_sigma;
     before[static_cast<Index>(c)] += 1.0 / columns[c].prior_sigma;
   }
-  // Gram-Schmidt, twice, dropping what depends on the columns before it.
+  // Gram-Schmidt, twice, dropping what depends on the columns before it. Free columns come first, so that the
+  // determinant is of what the others have beside them; then those of one domain, which stay in it.
+  const auto rank = [&](Index c) {
+    const auto domains = std::count_if(domains_.begin(), domains_.end(), [&](const Domain& d) {
+      return !augmented.col(c).segment(d.from, d.count).isZero(0.0);
+    });
+    return std::pair(columns[static_cast<std::size_t>(c)].prior_sigma > 0.0, domains > 1);
+  };
+  std::vector<Index> order(columns.size());
+  std::iota(order.begin(), order.end(), Index{0});
+  std::stable_sort(order.begin(), order.end(), [&](Index a, Index b) { return rank(a) < rank(b); });
   Eigen::MatrixXd basis(augmented.rows(), augmented.cols());
   Index used = 0;
   nuisance_log_det_ = 0.0;
-  for (Index c = 0; c < augmented.cols(); ++c) {
+  for (const Index c : order) {
     Eigen::VectorXd v = augmented.col(c);
     for (int pass = 0; pass < 2; ++pass) {
       v.noalias() -= basis.leftCols(used) * (basis.leftCols(used).transpose() * v);
@@ -817,7 +827,20 @@ void ResidualProblem::setNuisances(const std::vector<NuisanceColumn>& columns) {
     if (prior_sigma > 0.0) nuisance_log_det_ += 2.0 * std::log(norm * prior_sigma);
   }
   q_ = basis.leftCols(used);
+  q_parts_ = partsOf(q_);
   projected_y_ = projected(y);
+}
+
+std::vector<ResidualProblem::BasisPart> ResidualProblem::partsOf(const Eigen::MatrixXd& basis) const {
+  std::vector<BasisPart> parts(domains_.size());
+  for (std::size_t d = 0; d < domains_.size(); ++d) {
+    const auto rows = basis.middleRows(domains_[d].from, domains_[d].count);
+    for (Index c = 0; c < basis.cols(); ++c) {
+      if (!rows.col(c).isZero(0.0)) parts[d].columns.push_back(c);
+    }
+    parts[d].rows = rows(Eigen::all, parts[d].columns);
+  }
+  return parts;
 }
 
 Eigen::MatrixXd ResidualProblem::freeOfConstants(const Eigen::MatrixXd& columns) const {
@@ -834,10 +857,20 @@ Eigen::MatrixXd ResidualProblem::freeOfConstants(const Eigen::MatrixXd& columns)
 
 Eigen::MatrixXd ResidualProblem::projected(const Eigen::MatrixXd& columns) const {
   Eigen::MatrixXd out = freeOfConstants(columns);
-  if (q_.cols() > 0 && out.cols() > 0) {
-    const Eigen::MatrixXd dots = q_.transpose() * out;
-    out.noalias() -= q_ * dots;
+  if (q_.cols() == 0 || out.cols() == 0) return out;
+  Eigen::MatrixXd dots = Eigen::MatrixXd::Zero(q_.cols(), out.cols());
+  for (std::size_t d = 0; d < domains_.size(); ++d) {
+    if (q_parts_[d].columns.empty()) continue;
+    const Eigen::MatrixXd here = q_parts_[d].rows.transpose() * out.middleRows(domains_[d].from, domains_[d].count);
+    for (Index q = 0; q < here.rows(); ++q) dots.row(q_parts_[d].columns[static_cast<std::size_t>(q)]) += here.row(q);
   }
+  for (std::size_t d = 0; d < domains_.size(); ++d) {
+    if (q_parts_[d].columns.empty()) continue;
+    out.middleRows(domains_[d].from, domains_[d].count).noalias() -=
+        q_parts_[d].rows * Eigen::MatrixXd(dots(q_parts_[d].columns, Eigen::all));
+  }
+  // The priors' rows are zero in what comes in.
+  if (prior_rows_ > 0) out.bottomRows(prior_rows_).noalias() -= q_.bottomRows(prior_rows_) * dots;
   return out;
 }
 

@@ -180,6 +180,14 @@ class ResidualProblem {
   [[nodiscard]] Eigen::VectorXd centred(Eigen::VectorXd values) const;
   /// Orthonormal basis of the nuisances besides the constants (all rows, then the priors).
   [[nodiscard]] const Eigen::MatrixXd& nuisanceBasis() const noexcept { return q_; }
+  /// The columns of a basis that are not zero in a domain, and their rows there.
+  struct BasisPart {
+    std::vector<Eigen::Index> columns;
+    Eigen::MatrixXd rows;
+  };
+  [[nodiscard]] const std::vector<BasisPart>& nuisanceParts() const noexcept { return q_parts_; }  ///< one a domain
+  /// The same of any basis over the units (and whatever rows follow them).
+  [[nodiscard]] std::vector<BasisPart> partsOf(const Eigen::MatrixXd& basis) const;
   /// What is not one of the free constants: observations stand for deviations from themselves (false: absolute).
   bool free_constants = true;
 
@@ -255,6 +263,7 @@ class ResidualProblem {
   Eigen::Index prior_rows_ = 0;
   double nuisance_log_det_ = 0.0;
   Eigen::MatrixXd q_;  ///< orthonormal basis of the nuisances, augmented
+  std::vector<BasisPart> q_parts_;
   Eigen::VectorXd projected_y_;
 };
 

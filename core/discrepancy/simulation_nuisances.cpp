@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 
 #include "core/discrepancy/residual_problem.h"
+#include "core/math/singular_values.h"
 
 namespace spindrift {
 namespace {
@@ -85,21 +85,17 @@ std::vector<NuisanceColumn> ResidualProblem::simulationNuisances(double gain_unc
       const double average = total > 0.0 ? table.col(e).sum() / total : 0.0;
       for (Index p = 0; p < points; ++p) table(p, e) = count(p, e) > 0.0 ? table(p, e) / count(p, e) : average;
     }
-    const Eigen::BDCSVD<Eigen::MatrixXd> svd(table, Eigen::ComputeThinU | Eigen::ComputeThinV);
-    Index rank = 0;
-    while (rank < std::min<Index>(3, svd.singularValues().size()) &&
-           svd.singularValues()[rank] > 0.01 * svd.singularValues()[0]) {
-      ++rank;
-    }
+    const SingularValues svd = singularValues(table);
+    const Index rank = std::min<Index>(3, svd.rank(0.01));
     if (rank < 2) continue;
     for (Index a = 0; a < rank; ++a) {
       for (Index b = 0; b < rank; ++b) {
-        const double amplitude = std::sqrt(svd.singularValues()[a] * svd.singularValues()[b]);
+        const double amplitude = std::sqrt(svd.values[a] * svd.values[b]);
         Eigen::VectorXd column = Eigen::VectorXd::Zero(n);
         for (Index p = 0; p < points; ++p) {
           const auto s = static_cast<std::size_t>(members[static_cast<std::size_t>(p)]);
           for (Index u = series_begin[s]; u < series_begin[s + 1]; ++u) {
-            column[u] = amplitude * svd.matrixU()(p, a) * svd.matrixV()(epoch[static_cast<std::size_t>(u)], b);
+            column[u] = amplitude * svd.left(p, a) * svd.right(epoch[static_cast<std::size_t>(u)], b);
           }
         }
         out.push_back({column, gain_uncertainty, true});

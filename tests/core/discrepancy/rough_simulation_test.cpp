@@ -5,6 +5,7 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 #include "core/discrepancy/discrepancy.h"
@@ -126,15 +127,71 @@ TEST(RoughSimulation, NothingIsMissingWhereAllPartsAreSomewhatOff) {
   EXPECT_GE(nothing_named, campaigns - 1);
 }
 
-TEST(RoughSimulation, TheFreedomOfNuisancesCostsTheirDeterminant) {
-  const StudyCase made = studyCase({}, 93'001);
-  JobContext job;
-  const DiscrepancyInput input = study::inputOf(simulateStudy(made, job).campaign);
+/// A campaign of the study, and those of its rows that fits are made of.
+struct RowsToFit {
+  DiscrepancyInput input;
   std::vector<std::size_t> rows;
-  for (std::size_t r = 0; r < input.observations.rows.size(); ++r) {
-    if (input.observations.rows[r].use == ObservationUse::Fit) rows.push_back(r);
+};
+
+RowsToFit rowsToFit() {
+  JobContext job;
+  RowsToFit made{study::inputOf(simulateStudy(studyCase({}, 93'001), job).campaign), {}};
+  for (std::size_t r = 0; r < made.input.observations.rows.size(); ++r) {
+    if (made.input.observations.rows[r].use == ObservationUse::Fit) made.rows.push_back(r);
   }
-  ResidualProblem problem(input, rows, 4000);
+  return made;
+}
+
+TEST(RoughSimulation, NuisancesOfOneComponentStayInItAndTheirOrderDoesNotMatter) {
+  const RowsToFit made = rowsToFit();
+  ResidualProblem problem(made.input, made.rows, 4000);
+  std::vector<NuisanceColumn> nuisances = problem.simulationNuisances(0.08);
+  const std::size_t of_one = nuisances.size();
+  ASSERT_GE(of_one, 4U);
+  // One that all components share, and a free one, before the others and after them.
+  Eigen::VectorXd shared(problem.size());
+  Eigen::VectorXd free(problem.size());
+  for (Eigen::Index u = 0; u < problem.size(); ++u) {
+    const double hours = problem.time_s[static_cast<std::size_t>(u)] / 3600.0;
+    shared[u] = std::sin(hours);
+    free[u] = hours * hours;
+  }
+  nuisances.insert(nuisances.begin(), {{shared, 0.5, false}, {free, 0.0, false}});
+  problem.setNuisances(nuisances);
+  const double determinant = problem.nuisanceLogDeterminant();
+  const Eigen::VectorXd left = problem.projectedResidual();
+
+  std::size_t parts = 0;
+  Eigen::MatrixXd together = Eigen::MatrixXd::Zero(problem.size(), problem.nuisanceBasis().cols());
+  for (std::size_t d = 0; d < problem.domains().size(); ++d) {
+    const ResidualProblem::BasisPart& part = problem.nuisanceParts()[d];
+    parts += part.columns.size();
+    for (std::size_t q = 0; q < part.columns.size(); ++q)
+      together.col(part.columns[q]).segment(problem.domains()[d].from, problem.domains()[d].count) =
+          part.rows.col(static_cast<Eigen::Index>(q));
+  }
+  EXPECT_EQ((together - problem.nuisanceBasis().topRows(problem.size())).norm(), 0.0);
+  // The free one comes first and is in all; what is of one component then holds a little of it.
+  EXPECT_GT(parts, of_one);
+  EXPECT_LT((problem.projected(free)).norm(), 1e-9 * problem.whitened(free).norm());
+
+  std::reverse(nuisances.begin(), nuisances.end());
+  problem.setNuisances(nuisances);
+  EXPECT_NEAR(problem.nuisanceLogDeterminant(), determinant, 1e-9 * std::abs(determinant));
+  EXPECT_NEAR(problem.projectedResidual().norm(), left.norm(), 1e-9 * left.norm());
+
+  nuisances.erase(std::remove_if(nuisances.begin(), nuisances.end(),
+                                 [](const NuisanceColumn& c) { return !(c.prior_sigma > 0.0); }),
+                  nuisances.end());
+  problem.setNuisances(nuisances);
+  std::size_t without_free = 0;
+  for (const ResidualProblem::BasisPart& part : problem.nuisanceParts()) without_free += part.columns.size();
+  EXPECT_LE(without_free, of_one + problem.domains().size());
+}
+
+TEST(RoughSimulation, TheFreedomOfNuisancesCostsTheirDeterminant) {
+  const RowsToFit made = rowsToFit();
+  ResidualProblem problem(made.input, made.rows, 4000);
   const std::vector<NuisanceColumn> nuisances = problem.simulationNuisances(0.08);
   ASSERT_GE(nuisances.size(), 4U);
   problem.setNuisances(nuisances);
