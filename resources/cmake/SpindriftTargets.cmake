@@ -27,12 +27,13 @@ if(SPINDRIFT_SANITIZE)
 endif()
 # What every test runs with. Sanitized programs are slower, report leaks of our own, and end at the first report.
 set(SPINDRIFT_TEST_ENVIRONMENT QT_QPA_PLATFORM=offscreen LC_ALL=C.UTF-8)
-set(SPINDRIFT_TEST_SLOWNESS 1)
+# A test that takes longer hangs, on the slowest machine.
+set(SPINDRIFT_TEST_TIMEOUT_S 1200)
 if(SPINDRIFT_SANITIZE)
   list(APPEND SPINDRIFT_TEST_ENVIRONMENT
        ASAN_OPTIONS=detect_leaks=1:strict_string_checks=1:detect_stack_use_after_return=1
        UBSAN_OPTIONS=print_stacktrace=1:halt_on_error=1)
-  set(SPINDRIFT_TEST_SLOWNESS 8)
+  set(SPINDRIFT_TEST_TIMEOUT_S 5000)
 endif()
 target_compile_definitions(spindrift_options INTERFACE SPINDRIFT_VERSION="${PROJECT_VERSION}")
 
@@ -56,15 +57,12 @@ function(spindrift_core_library name)
   endif()
 endfunction()
 
-# spindrift_register_test(<name> [TIMEOUT seconds] [LABELS l ...] [PARTS <suffix>=<filter> ...])
+# spindrift_register_test(<name> [TIMED] [LABELS l ...] [PARTS <suffix>=<filter> ...])
 # Registers a GoogleTest program with ctest as <name>; one that takes minutes in parts, <name>_<suffix>, so that several run
-# at once and none takes too long on a slow machine. What no part names runs as <name>. The longest begin first.
+# at once and none takes too long on a slow machine. What no part names runs as <name>. The longest begin first
+# (tests/seconds.txt). TIMED: something in it has to be in time, so that it takes two of the places of ctest -j.
 function(spindrift_register_test name)
-  cmake_parse_arguments(ARG "" "TIMEOUT" "LABELS;PARTS" ${ARGN})
-  if(NOT ARG_TIMEOUT)
-    set(ARG_TIMEOUT 300)
-  endif()
-  math(EXPR timeout "${ARG_TIMEOUT} * ${SPINDRIFT_TEST_SLOWNESS}")
+  cmake_parse_arguments(ARG "TIMED" "" "LABELS;PARTS" ${ARGN})
   set(tests ${name})
   set(named "")
   foreach(part ${ARG_PARTS})
@@ -79,21 +77,39 @@ function(spindrift_register_test name)
   else()
     add_test(NAME ${name} COMMAND ${name})
   endif()
-  set_tests_properties(${tests} PROPERTIES TIMEOUT ${timeout} COST ${ARG_TIMEOUT} LABELS "${ARG_LABELS}"
-                                         ENVIRONMENT "${SPINDRIFT_TEST_ENVIRONMENT}")
+  set_tests_properties(${tests} PROPERTIES TIMEOUT ${SPINDRIFT_TEST_TIMEOUT_S} LABELS "${ARG_LABELS}" ENVIRONMENT "${SPINDRIFT_TEST_ENVIRONMENT}")
+  if(ARG_TIMED)
+    set_tests_properties(${tests} PROPERTIES PROCESSORS 2)
+  endif()
+  spindrift_begin_long_tests_first(${tests})
 endfunction()
 
-# spindrift_test(<name> SOURCES a_test.cpp ... LINK lib ... [TIMEOUT seconds] [LABELS l ...] [PARTS <suffix>=<filter> ...])
+# spindrift_begin_long_tests_first(<test> ...): by the seconds that tests/seconds.txt knows.
+function(spindrift_begin_long_tests_first)
+  file(STRINGS ${CMAKE_SOURCE_DIR}/tests/seconds.txt known REGEX "^[0-9]")
+  foreach(test ${ARGN})
+    foreach(line ${known})
+      if(line MATCHES "^([0-9]+) ${test}$")
+        set_tests_properties(${test} PROPERTIES COST ${CMAKE_MATCH_1})
+      endif()
+    endforeach()
+  endforeach()
+endfunction()
+
+# spindrift_test(<name> SOURCES a_test.cpp ... LINK lib ... [TIMED] [LABELS l ...] [PARTS <suffix>=<filter> ...])
 # One GoogleTest program, registered with ctest as spindrift_register_test says.
 function(spindrift_test name)
-  cmake_parse_arguments(ARG "" "TIMEOUT" "SOURCES;LINK;LABELS;PARTS" ${ARGN})
+  cmake_parse_arguments(ARG "TIMED" "" "SOURCES;LINK;LABELS;PARTS" ${ARGN})
   add_executable(${name} ${ARG_SOURCES})
   target_link_libraries(${name} PRIVATE ${ARG_LINK} spindrift_test_support)
   target_precompile_headers(${name} REUSE_FROM spindrift_test_headers)
   spindrift_unity(${name})
   spindrift_quick_to_compile(${name})
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
-  spindrift_register_test(${name} TIMEOUT ${ARG_TIMEOUT} LABELS ${ARG_LABELS} PARTS ${ARG_PARTS})
+  if(ARG_TIMED)
+    set(timed TIMED)
+  endif()
+  spindrift_register_test(${name} ${timed} LABELS ${ARG_LABELS} PARTS ${ARG_PARTS})
 endfunction()
 
 # spindrift_benchmark(<name> SOURCES a.cpp ... LINK lib ...): a program of its own in build/benchmarks, not run by ctest.
