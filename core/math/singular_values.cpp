@@ -9,11 +9,20 @@ namespace spindrift {
 
 namespace {
 
-SingularValues decomposed(const Eigen::MatrixXd& matrix, RightVectors right) {
+template <typename Decomposition>
+SingularValues decomposedBy(const Eigen::MatrixXd& matrix, RightVectors right) {
   const unsigned int wanted =
       Eigen::ComputeThinU | (right == RightVectors::Full ? Eigen::ComputeFullV : Eigen::ComputeThinV);
-  const Eigen::BDCSVD<Eigen::MatrixXd> svd(matrix, wanted);
+  const Decomposition svd(matrix, wanted);
   return {svd.singularValues(), svd.matrixU(), svd.matrixV()};
+}
+
+SingularValues decomposed(const Eigen::MatrixXd& matrix, RightVectors right) {
+  // Eigen's divide and conquer keeps nine digits only where singular values lie close together (3.4); Jacobi keeps them
+  // all, and takes too long where there are many.
+  constexpr Eigen::Index many = 64;
+  return std::min(matrix.rows(), matrix.cols()) < many ? decomposedBy<Eigen::JacobiSVD<Eigen::MatrixXd>>(matrix, right)
+                                                       : decomposedBy<Eigen::BDCSVD<Eigen::MatrixXd>>(matrix, right);
 }
 
 }  // namespace

@@ -21,7 +21,8 @@ struct SingularValues {
   [[nodiscard]] Eigen::Index rank(double tolerance) const;
 };
 
-/// Decomposes a matrix, which may have no row or no column. A tall one is first reduced to its triangle
+/// Decomposes a matrix, which may have no row or no column: to 1e-13 of the largest value where rows or columns are
+/// fewer than 64, to 1e-9 where those of a larger one lie close together. A tall one is first reduced to its triangle
 /// (R-bidiagonalisation, Golub and Van Loan 8.6.3), which a fit of few parameters to many readings gains most from.
 [[nodiscard]] SingularValues singularValues(const Eigen::MatrixXd& matrix, RightVectors right = RightVectors::Thin);
 
