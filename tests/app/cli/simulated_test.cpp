@@ -73,7 +73,7 @@ TEST_F(Simulated, TimesOfTheMachineAndOfWritingAreToldApart) {
   const double took_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - started).count();
   EXPECT_DOUBLE_EQ(j["elapsed_ms"].get<double>(), j["plant_ms"].get<double>() + j["writing_ms"].get<double>());
   EXPECT_GT(j["writing_ms"].get<double>(), j["plant_ms"].get<double>());
-  EXPECT_GT(j["elapsed_ms"].get<double>(), 0.5 * took_ms);
+  EXPECT_GT(j["elapsed_ms"].get<double>(), 0.2 * took_ms);  // the rest is the start of the program
   EXPECT_LE(j["elapsed_ms"].get<double>(), took_ms);
   const Outcome people = runCli({"simulate", scenario, "--out", in("people")});
   EXPECT_NE(people.output.find("machine simulated in"), std::string::npos) << people.output;
