@@ -5,12 +5,27 @@
 #include <Eigen/Eigenvalues>
 #include <cmath>
 
+#include "core/base/error.h"
+
 namespace spindrift {
 
 using Eigen::Index;
 
+Eigen::MatrixXd borderedMatrix(const Eigen::MatrixXd& gram, Index shifts, double scale, double shift, double smooth) {
+  const Index border = gram.cols() - 1;
+  Eigen::VectorXd size = Eigen::VectorXd::Constant(gram.cols(), smooth);
+  size.head(shifts).setConstant(shift);
+  size[border] = 1.0;
+  Eigen::MatrixXd out = size.asDiagonal() * gram * size.asDiagonal() / (scale * scale);
+  out.diagonal().head(border).array() += 1.0;
+  // Readings without any noise leave nothing behind but rounding, of either sign.
+  out(border, border) = out(border, border) * (1.0 + 1e-12) + 1e-9;
+  return out;
+}
+
 BorderedGram::BorderedGram(const Eigen::MatrixXd& gram, Index shifts)
     : smooth_gram_(gram.bottomRightCorner(gram.rows() - shifts, gram.cols() - shifts)) {
+  SPINDRIFT_ASSERT(gram.rows() == gram.cols() && gram.cols() > shifts, "products without what they are to explain");
   if (shifts == 0) return;
   const Eigen::Tridiagonalization<Eigen::MatrixXd> turned(gram.topLeftCorner(shifts, shifts));
   diagonal_ = turned.diagonal();
@@ -25,21 +40,17 @@ double BorderedGram::deviance(double scale, double shift, double smooth) const {
   const Index rest = smooth_gram_.cols();
   const double scale2 = scale * scale;
   double log_det = 0.0;
-  Eigen::VectorXd size = Eigen::VectorXd::Constant(rest, smooth);
-  size[rest - 1] = 1.0;
-  Eigen::MatrixXd left = size.asDiagonal() * smooth_gram_ * size.asDiagonal() / scale2;
-  left.diagonal().head(rest - 1).array() += 1.0;
-  // Readings without any noise leave nothing behind but rounding, of either sign.
-  left(rest - 1, rest - 1) = left(rest - 1, rest - 1) * (1.0 + 1e-12) + 1e-9;
+  Eigen::MatrixXd left = borderedMatrix(smooth_gram_, 0, scale, 0.0, smooth);
   if (shifts > 0) {
     // 1 + shift^2 T / scale^2 = L P L' with a bidiagonal L: down the chain.
     const double square = shift * shift / scale2;
-    Eigen::MatrixXd chain = (shift / scale2) * size.asDiagonal() * along_;
+    Eigen::MatrixXd chain = (shift / scale2) * along_;
+    chain.topRows(rest - 1) *= smooth;
     double pivot = 1.0;
     for (Index k = 0; k < shifts; ++k) {
       const double coupling = k > 0 ? square * beside_[k - 1] : 0.0;
       const double factor = k > 0 ? coupling / pivot : 0.0;
-      const double before = std::sqrt(pivot);  // by which the row above was divided
+      const double before = std::sqrt(pivot);  // by which the link before was divided
       pivot = 1.0 + square * diagonal_[k] - factor * coupling;
       if (!(pivot > 0.0)) return beyond;
       log_det += std::log(pivot);

@@ -12,9 +12,13 @@
 
 namespace spindrift {
 
+/// D G D / scale^2 + I written out. `gram`: of [S X r], symmetric; `shifts`: columns of S.
+[[nodiscard]] Eigen::MatrixXd borderedMatrix(const Eigen::MatrixXd& gram, Eigen::Index shifts, double scale,
+                                             double shift, double smooth);
+
 class BorderedGram {
  public:
-  /// `gram`: of [S X r], symmetric; `shifts`: columns of S.
+  /// `gram` and `shifts` as above; r is always there.
   BorderedGram(const Eigen::MatrixXd& gram, Eigen::Index shifts);
 
   /// Log determinant of the cov of r over that of e, plus chi^2: -2 ln likelihood but for what only the scale has;

@@ -229,8 +229,7 @@ CandidateLibrary::Entry CandidateLibrary::entryOf(const Effect& effect) const {
       entry.whole[c] += power;
     }
     const auto& nuisances = problem_->nuisanceParts()[d];
-    const Eigen::MatrixXd here = nuisances.rows.transpose() * entry.columns.middleRows(at, domain.count);
-    for (Index q = 0; q < here.rows(); ++q) dots.row(nuisances.columns[static_cast<std::size_t>(q)]) += here.row(q);
+    dots(nuisances.columns, Eigen::all) += nuisances.rows.transpose() * entry.columns.middleRows(at, domain.count);
     at += domain.count;
   }
   if (pulses) {
@@ -267,14 +266,15 @@ double CandidateLibrary::choicePrice(const Effect& effect) const {
   return 0.0;
 }
 
-std::optional<CandidateFit> CandidateLibrary::bestOf(const Entry& entry, const Given& given) const {
+std::optional<CandidateFit> CandidateLibrary::bestOf(const Entry& entry, const Given& given,
+                                                     const std::vector<ResidualProblem::BasisPart>& parts) const {
   if (entry.ways.empty()) return std::nullopt;
   const Index columns = entry.columns.cols();
   // Of the basis only what is not zero where the effect acts.
   std::vector<Index> place(static_cast<std::size_t>(given.basis.cols()), -1);
   Index met = 0;
   for (const std::size_t d : entry.domains) {
-    for (const Index q : given.parts[d].columns) {
+    for (const Index q : parts[d].columns) {
       if (place[static_cast<std::size_t>(q)] < 0) place[static_cast<std::size_t>(q)] = met++;
     }
   }
@@ -284,10 +284,9 @@ std::optional<CandidateFit> CandidateLibrary::bestOf(const Entry& entry, const G
   for (const std::size_t d : entry.domains) {
     const auto& domain = problem_->domains()[d];
     const auto part = entry.columns.middleRows(at, domain.count);
-    const auto& basis = given.parts[d];
-    const Eigen::MatrixXd here = basis.rows.transpose() * part;
-    for (Index q = 0; q < here.rows(); ++q)
-      dots.row(place[static_cast<std::size_t>(basis.columns[static_cast<std::size_t>(q)])]) += here.row(q);
+    std::vector<Index> rows;
+    for (const Index q : parts[d].columns) rows.push_back(place[static_cast<std::size_t>(q)]);
+    dots(rows, Eigen::all) += parts[d].rows.transpose() * part;
     b.noalias() += part.transpose() * given.residual.segment(domain.from, domain.count);
     at += domain.count;
   }
@@ -362,10 +361,11 @@ std::optional<CandidateFit> CandidateLibrary::bestOf(const Entry& entry, const G
 
 std::vector<CandidateFit> CandidateLibrary::sweep(const Given& given, const std::vector<std::string>& skip,
                                                   const JobContext& job) const {
+  const std::vector<ResidualProblem::BasisPart> parts = problem_->partsOf(given.basis);
   std::vector<std::optional<CandidateFit>> found(entries_.size());
   parallelFor(entries_.size(), job, [&](std::size_t e) {
     const std::string& id = entries_[e].effect->id;
-    if (std::find(skip.begin(), skip.end(), id) == skip.end()) found[e] = bestOf(entries_[e], given);
+    if (std::find(skip.begin(), skip.end(), id) == skip.end()) found[e] = bestOf(entries_[e], given, parts);
   });
   std::vector<CandidateFit> out;
   for (std::optional<CandidateFit>& fit : found) {

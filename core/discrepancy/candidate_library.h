@@ -49,7 +49,6 @@ class CandidateLibrary {
   /// priors, below); `residual` is what they leave, as long.
   struct Given {
     Eigen::MatrixXd basis;
-    std::vector<ResidualProblem::BasisPart> parts;  ///< of the basis
     Eigen::VectorXd residual;
   };
   /// The best way of every effect that has one beside what is given, best first. `skip`: ids that are not tried.
@@ -76,7 +75,9 @@ class CandidateLibrary {
     Eigen::MatrixXd steps_gram;  ///< of all columns, for pulses
   };
   [[nodiscard]] Entry entryOf(const Effect& effect) const;
-  [[nodiscard]] std::optional<CandidateFit> bestOf(const Entry& entry, const Given& given) const;
+  /// `parts`: of the basis of what is given.
+  [[nodiscard]] std::optional<CandidateFit> bestOf(const Entry& entry, const Given& given,
+                                                   const std::vector<ResidualProblem::BasisPart>& parts) const;
 
   const EffectSearch* search_;
   const ResidualProblem* problem_;

@@ -124,8 +124,7 @@ void settle(Analysis& a, const DiscrepancyInput& input, ResidualProblem& problem
             const DiscrepancyPriors& priors, bool exact, const ModelTerm* off, JobContext& job) {
   a.simulation_error = exact ? 0.0 : std::max(input.simulation_gain_uncertainty, usual_simulation_error);
   a.hypotheses.chooseWindows(a.catalogue, problem, [&](const std::string&) {
-    const Eigen::MatrixXd nothing(problem.projectedResidual().size(), 0);
-    return CandidateLibrary::Given{nothing, problem.partsOf(nothing), problem.projectedResidual()};
+    return CandidateLibrary::Given{Eigen::MatrixXd(problem.projectedResidual().size(), 0), problem.projectedResidual()};
   });
   constexpr int most_rounds = 3;
   for (int round = 0; round < most_rounds; ++round) {

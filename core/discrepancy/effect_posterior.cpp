@@ -102,18 +102,11 @@ ErrorProducts errorProducts(const ResidualProblem& problem, const Eigen::MatrixX
         problem.withoutConstants(d, columns.middleRows(domain.from, domain.count)(Eigen::all, here));
     Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(m.cols(), m.cols());
     gram.selfadjointView<Eigen::Lower>().rankUpdate(m.transpose());
-    const Eigen::VectorXd moved = m.transpose() * left.segment(domain.from, domain.count);
+    out.gram(here, here) += gram;  // in ascending order: what is below the diagonal stays there
+    out.moved(here) += m.transpose() * left.segment(domain.from, domain.count);
     const auto& part = problem.nuisanceParts()[d];
-    const Eigen::MatrixXd along_nuisances = part.rows.transpose() * m;
-    const Eigen::MatrixXd along_named = named.middleRows(domain.from, domain.count).transpose() * m;
-    for (Index j = 0; j < m.cols(); ++j) {
-      const Index c = here[static_cast<std::size_t>(j)];
-      for (Index i = j; i < m.cols(); ++i) out.gram(here[static_cast<std::size_t>(i)], c) += gram(i, j);
-      for (std::size_t q = 0; q < part.columns.size(); ++q)
-        nuisances(part.columns[q], c) += along_nuisances(static_cast<Index>(q), j);
-      along.col(c) += along_named.col(j);
-      out.moved[c] += moved[j];
-    }
+    nuisances(part.columns, here) += part.rows.transpose() * m;
+    along(Eigen::all, here) += named.middleRows(domain.from, domain.count).transpose() * m;
   }
   auto lower = out.gram.selfadjointView<Eigen::Lower>();
   if (nuisances.rows() > 0) lower.rankUpdate(nuisances.transpose(), -1.0);
@@ -480,7 +473,6 @@ CandidateLibrary::Given PosteriorSearch::given(const JointFit& fit) const {
     out.basis.col(used++) = v / norm;
   }
   out.basis.conservativeResize(Eigen::NoChange, used);
-  out.parts = problem_->partsOf(out.basis);
   out.residual = Eigen::VectorXd::Zero(all.rows());
   out.residual.head(rows) = y;
   if (used > 0) out.residual -= out.basis * (out.basis.transpose() * out.residual);

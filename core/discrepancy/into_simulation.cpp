@@ -60,8 +60,7 @@ std::vector<FreeParameter> freeParameters(const std::vector<std::string>& mechan
   };
   for (const SimulatorTangent& t : tangents.tangents) {
     if (!t.window || !holds(mechanisms, t.parameter.name)) continue;
-    const LoadWindow best =
-        bestWindow(t, closure.problem(), {.basis = {}, .parts = {}, .residual = closure.residual()});
+    const LoadWindow best = bestWindow(t, closure.problem(), {Eigen::MatrixXd(), closure.residual()});
     times[t.window->begin_s] = best.from_s;
     times[t.window->end_s] = best.to_s;
     for (const FoundEffect& effect : result.effects) {

@@ -181,17 +181,8 @@ Products drifting(Products products, const Eigen::MatrixXd& factor) {
 
 /// The Cholesky factor of the bordered matrix of BorderedGram; without rows beyond what numbers can tell apart.
 Eigen::MatrixXd borderedFactor(const ComponentData& data, const Products& products, const Parameters& p) {
-  const Index s = data.shifts.cols();
-  const Index m = data.smooth.cols();
-  const Index total = s + m + 1;
-  Eigen::VectorXd d = Eigen::VectorXd::Ones(total);
-  d.head(s).setConstant(p.shift);
-  d.segment(s, m).setConstant(p.smooth);
-  Eigen::MatrixXd a = d.asDiagonal() * products.gram * d.asDiagonal() / std::exp(2.0 * p.log_scale);
-  a.diagonal().head(s + m).array() += 1.0;
-  // Readings without any noise leave nothing behind but rounding, of either sign.
-  a(total - 1, total - 1) = a(total - 1, total - 1) * (1.0 + 1e-12) + 1e-9;
-  const Eigen::LLT<Eigen::MatrixXd> llt(a);
+  const Eigen::LLT<Eigen::MatrixXd> llt(
+      borderedMatrix(products.gram, data.shifts.cols(), std::exp(p.log_scale), p.shift, p.smooth));
   if (llt.info() != Eigen::Success) return {};
   return llt.matrixL();
 }

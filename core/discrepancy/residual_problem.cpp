@@ -861,8 +861,8 @@ Eigen::MatrixXd ResidualProblem::projected(const Eigen::MatrixXd& columns) const
   Eigen::MatrixXd dots = Eigen::MatrixXd::Zero(q_.cols(), out.cols());
   for (std::size_t d = 0; d < domains_.size(); ++d) {
     if (q_parts_[d].columns.empty()) continue;
-    const Eigen::MatrixXd here = q_parts_[d].rows.transpose() * out.middleRows(domains_[d].from, domains_[d].count);
-    for (Index q = 0; q < here.rows(); ++q) dots.row(q_parts_[d].columns[static_cast<std::size_t>(q)]) += here.row(q);
+    dots(q_parts_[d].columns, Eigen::all) +=
+        q_parts_[d].rows.transpose() * out.middleRows(domains_[d].from, domains_[d].count);
   }
   for (std::size_t d = 0; d < domains_.size(); ++d) {
     if (q_parts_[d].columns.empty()) continue;

@@ -223,8 +223,7 @@ TEST(Dynamics, TryEveryDriverThatTheDataAllow) {
   for (const Effect& effect : catalogue) {
     if (effect.id != "spindle.drift.y") others.push_back(effect.id);
   }
-  const Eigen::MatrixXd no_basis(problem.projectedResidual().size(), 0);
-  CandidateLibrary::Given nothing{no_basis, problem.partsOf(no_basis), problem.projectedResidual()};
+  CandidateLibrary::Given nothing{Eigen::MatrixXd(problem.projectedResidual().size(), 0), problem.projectedResidual()};
   const std::vector<CandidateFit> candidates = library.sweep(nothing, others, job);
   ASSERT_EQ(candidates.size(), 1u);
   const auto versions = alternativeDynamics(search, problem, drivers, search.refine({candidates[0].term}, 2));
