@@ -135,6 +135,15 @@ struct GenicamCamera::Device {
     }
   }
 
+  /// A GigE camera sends a frame as one burst of packets: while the reader has no processor, the kernel must hold them.
+  /// Linux counts a packet of 1.5 kB as 2.3 kB, and gives no more than net.core.rmem_max allows.
+  void holdFrames(unsigned payload_bytes) {
+    if (!ARV_IS_GV_STREAM(stream)) return;
+    constexpr double held_frames = 4.0, largest_bytes = 256.0e6;
+    g_object_set(stream, "socket-buffer", ARV_GV_STREAM_SOCKET_BUFFER_FIXED, "socket-buffer-size",
+                 static_cast<gint>(std::min(held_frames * payload_bytes, largest_bytes)), nullptr);
+  }
+
   void start() {
     Fault fault(name);
     stream = arv_camera_create_stream(camera, nullptr, nullptr, &fault);
@@ -142,6 +151,7 @@ struct GenicamCamera::Device {
     if (stream == nullptr) throw ConnectionError(fmt::format("Camera {} gives no stream.", name));
     const unsigned size = arv_camera_get_payload(camera, &fault);
     fault.check("the size of a frame");
+    holdFrames(size);
     for (int i = 0; i < buffers; ++i) arv_stream_push_buffer(stream, arv_buffer_new(size, nullptr));
     arv_camera_start_acquisition(camera, &fault);
     fault.check("start");

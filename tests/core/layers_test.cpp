@@ -342,6 +342,46 @@ TEST(Layers, EverySourceNamesItsLicence) {
   }
 }
 
+/// The list of that name in a CMakeLists.txt, one path of core a line.
+std::set<std::string> listOf(const std::string& cmake, const std::string& name) {
+  const std::size_t begin = cmake.find("set(" + name + "\n");
+  if (begin == std::string::npos) return {};
+  const std::string text = cmake.substr(begin, cmake.find(')', begin) - begin);
+  static const std::regex path(R"(\w+/\w+\.cpp)");
+  std::set<std::string> found;
+  for (std::sregex_iterator it(text.begin(), text.end(), path), end; it != end; ++it) found.insert("core/" + it->str());
+  return found;
+}
+
+// The program that feeds the readers takes the sources it needs out of core one by one; only a build of an hour would
+// tell of one that is missing.
+TEST(Layers, ReadersUnderMutatedFilesHaveTheSourcesOfWhatTheyInclude) {
+  const fs::path root = spindrift::testing::sourceFolder(), fuzz = root / "tests/fuzz";
+  const std::string cmake = readFile(fuzz / "CMakeLists.txt");
+  const std::set<std::string> listed = listOf(cmake, "sources"), declared_only = listOf(cmake, "declared_only");
+  ASSERT_GT(listed.size(), 40U);
+  std::vector<std::string> todo(listed.begin(), listed.end());
+  for (const fs::path& file : sources(fuzz))
+    if (file.filename() != "whole_core_readers.cpp") todo.push_back("tests/fuzz/" + file.filename().string());
+  std::set<std::string> seen(todo.begin(), todo.end()), missing, wanted;
+  while (!todo.empty()) {
+    const std::string file = todo.back();
+    todo.pop_back();
+    ASSERT_TRUE(fs::exists(root / file)) << "tests/fuzz/CMakeLists.txt names " << file << ", which is not there";
+    for (const std::string& include : includesOf(root / file)) {
+      if (!include.starts_with("core/") || include.starts_with("core/base/") || !include.ends_with(".h")) continue;
+      const std::string source = include.substr(0, include.size() - 2) + ".cpp";
+      if (fs::exists(root / source) && !listed.contains(source)) {
+        wanted.insert(source);
+        if (!declared_only.contains(source)) missing.insert(source + ", wanted by " + file);
+      }
+      if (fs::exists(root / include) && seen.insert(include).second) todo.push_back(include);
+    }
+  }
+  EXPECT_THAT(missing, ::testing::IsEmpty()) << "in tests/fuzz/CMakeLists.txt";
+  EXPECT_EQ(wanted, declared_only);
+}
+
 TEST(Layers, IncludePatternRecognisesWindowSystems) {
   EXPECT_TRUE(isWindowSystem("QWidget"));
   EXPECT_TRUE(isWindowSystem("QtWidgets/QWidget"));
