@@ -49,3 +49,27 @@ SPINDRIFT_EIGEN_ELSEWHERE template struct general_matrix_vector_product<
 SPINDRIFT_EIGEN_ELSEWHERE template struct general_matrix_vector_product<
     Index, double, SpindriftFactor<RowMajor>, RowMajor, false, double, SpindriftFactor<ColMajor>, false>;
 }  // namespace Eigen::internal
+
+namespace spindrift {
+/// result += factor * lhs * rhs, of rows x depth and depth x cols; each stored by columns, or by rows where it says so,
+/// with the stride between them. By BLIS, which takes the widest unit that the processor has: Eigen takes that of the
+/// oldest processor the distribution runs on, and needs three to four times as long.
+void addProduct(Eigen::Index rows, Eigen::Index cols, Eigen::Index depth, const double* lhs, Eigen::Index lhs_stride,
+                bool lhs_by_rows, const double* rhs, Eigen::Index rhs_stride, bool rhs_by_rows, double* result,
+                Eigen::Index result_stride, double factor);
+}  // namespace spindrift
+
+// Every product of two dynamic matrices that is large enough for blocks.
+namespace Eigen::internal {
+template <int lhs_order, bool lhs_conjugated, int rhs_order, bool rhs_conjugated>
+struct general_matrix_matrix_product<Index, double, lhs_order, lhs_conjugated, double, rhs_order, rhs_conjugated,
+                                     ColMajor, 1> {
+  using Traits = gebp_traits<double, double>;
+  static void run(Index rows, Index cols, Index depth, const double* lhs, Index lhs_stride, const double* rhs,
+                  Index rhs_stride, double* result, Index, Index result_stride, double factor,
+                  level3_blocking<double, double>&, GemmParallelInfo<Index>* = nullptr) {
+    spindrift::addProduct(rows, cols, depth, lhs, lhs_stride, lhs_order == RowMajor, rhs, rhs_stride,
+                          rhs_order == RowMajor, result, result_stride, factor);
+  }
+};
+}  // namespace Eigen::internal
