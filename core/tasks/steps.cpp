@@ -244,7 +244,13 @@ StepReport review(const TaskGraph& graph) {
     return report(StepState::Blocked, "A log over time has no points to compare; Model compares models of it.");
   if (!graph.hasObservations() && !graph.facts().scans)
     return report(StepState::Blocked, "There is nothing to compare yet.");
-  return report(StepState::Current, "Available at any time.");
+  const nlohmann::json seen =
+      graph.session().setting(campaignKey(option_keys::reviewed, graph.campaign())).value_or(nlohmann::json());
+  if (!seen.is_object()) return report(StepState::NotStarted, "Compare states, simulation and model side by side.");
+  const std::vector<std::string> changed = changesOfInputs(seen, reviewedNow(graph));
+  if (!changed.empty())
+    return report(StepState::Outdated, fmt::format("Changed since you looked: {}. Look again.", joined(changed)));
+  return report(StepState::Current, "You have looked at what there is.");
 }
 
 std::size_t rowsOf(const Campaign& campaign, const char* list) {
@@ -266,6 +272,14 @@ std::optional<nlohmann::json> warmStatement(const TaskGraph& graph) {
   // Sessions of earlier versions keep it as a result; an empty object takes that back.
   const StoredResult* result = given.is_null() ? graph.latest("warm-up") : nullptr;
   return result == nullptr ? std::nullopt : std::optional(result->payload);
+}
+
+nlohmann::json reviewedNow(const TaskGraph& graph) {
+  nlohmann::json now = graph.session().inputs(graph.campaign());
+  // Another version of the program shows the same.
+  now.erase("program");
+  for (const char* kind : {"evaluate", "fit"}) now[kind] = graph.fingerprintOf(kind);
+  return now;
 }
 
 std::string_view toString(StepId step) noexcept {

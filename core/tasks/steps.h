@@ -47,6 +47,8 @@ struct CaptureCounts {
   [[nodiscard]] static CaptureCounts of(const TaskGraph& graph);
 };
 
+/// What the step Review compares, as its inputs: kept (option_keys::reviewed) when it is looked at.
+[[nodiscard]] nlohmann::json reviewedNow(const TaskGraph& graph);
 /// The operator's word that the instrument was warm ("settled", "by"), if it was given.
 [[nodiscard]] std::optional<nlohmann::json> warmStatement(const TaskGraph& graph);
 [[nodiscard]] StepReport stepReport(const TaskGraph& graph, StepId step, const CaptureCounts& counts);

@@ -162,6 +162,16 @@ ResultOrigin TaskGraph::origin(const std::string& task, const nlohmann::json& mo
   return session_.originOf(campaign_, task, all, inputsOfResults(task));
 }
 
+std::vector<std::string> changesOfInputs(const nlohmann::json& then, const nlohmann::json& now) {
+  std::vector<std::string> changed;
+  for (const auto& [name, value] : now.items()) {
+    // What an earlier version did not know of counts as not there.
+    const nlohmann::json before = then.value(name, value == "" ? value : nlohmann::json());
+    if (before != value) changed.push_back(described(name, before, value));
+  }
+  return changed;
+}
+
 std::vector<std::string> TaskGraph::changes(const StoredResult& result) const {
   if (result.provenance.inputs.empty()) return {"what it was made from is not known to this version"};
   const ResultOrigin now = origin(result.kind);
@@ -170,12 +180,7 @@ std::vector<std::string> TaskGraph::changes(const StoredResult& result) const {
   if (one != nullptr && one->as_now != nullptr) one->as_now(then, now);
   // As they would be written now: earlier versions wrote less. Options beyond those belong to whoever added them.
   then.options = one == nullptr ? now.options : one->options_of(then.options);
-  std::vector<std::string> changed;
-  for (const auto& [name, value] : now.inputs.items()) {
-    // What an earlier version did not know of counts as not there.
-    const nlohmann::json before = then.inputs.value(name, value == "" ? value : nlohmann::json());
-    if (before != value) changed.push_back(described(name, before, value));
-  }
+  std::vector<std::string> changed = changesOfInputs(then.inputs, now.inputs);
   for (const nlohmann::json& differing : {now.options, then.options})
     for (const auto& [name, unused] : differing.items()) {
       if (then.options.value(name, nlohmann::json()) == now.options.value(name, nlohmann::json())) continue;

@@ -118,6 +118,9 @@ class TaskLedger {
   std::map<std::pair<std::int64_t, std::string>, Entry> entries_;
 };
 
+/// What of the inputs of an origin is other than it was: "1 exclusion more", "the fitted model".
+[[nodiscard]] std::vector<std::string> changesOfInputs(const nlohmann::json& then, const nlohmann::json& now);
+
 /// The tasks of one campaign; cheap to make, holds nothing of its own.
 class TaskGraph {
  public:

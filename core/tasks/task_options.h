@@ -45,6 +45,7 @@ inline constexpr auto verify = "verify";
 inline constexpr auto report = "report-options";
 inline constexpr auto plan = "plan";
 inline constexpr auto warm_statement = "warm-statement";
+inline constexpr auto reviewed = "reviewed";  ///< what there was when the comparison was last looked at
 inline constexpr auto simulator = "discrepancy/simulator";
 inline constexpr auto connections = "connections";  ///< connections.json of the campaign
 inline constexpr auto operator_name = "operator";   ///< sessions of earlier versions: one for all campaigns

@@ -386,6 +386,15 @@ void SessionModel::setSetting(const std::string& key, const nlohmann::json& valu
   }
 }
 
+void SessionModel::noteReviewed() {
+  if (session_ == nullptr || state_.campaign == nullptr) return;
+  const std::string key = campaignKey(option_keys::reviewed);
+  nlohmann::json now = reviewedNow(tasks());
+  if (session_->setting(key) == now) return;
+  setSetting(key, now);
+  Q_EMIT inputsChanged();
+}
+
 std::string SessionModel::warmStatementKey() const {
   return campaignKey(option_keys::warm_statement);
 }

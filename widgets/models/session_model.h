@@ -176,6 +176,8 @@ class SessionModel : public QObject {
   /// key under which it is kept as an option that can be undone.
   [[nodiscard]] std::optional<nlohmann::json> warmStatement() const;
   [[nodiscard]] std::string warmStatementKey() const;
+  /// The comparison of what there is now is being looked at.
+  void noteReviewed();
 
   // Settings that belong to the session.
   void setSetting(const std::string& key, const nlohmann::json& value);

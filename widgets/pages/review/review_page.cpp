@@ -214,6 +214,7 @@ void ReviewPage::refresh() {
     callout()->set(Tone::Neutral, {});
   }
   showAll();
+  if (isVisible() && (own != nullptr && !(own->states.empty() && own->scans.empty()))) session().noteReviewed();
 }
 
 void ReviewPage::fillSlider() {

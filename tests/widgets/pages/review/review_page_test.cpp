@@ -49,10 +49,29 @@ class Review : public PageTest {
   }
 };
 
+TEST_F(Review, IsDoneWhenItHasBeenLookedAtAndOutdatedWhenSomethingChanged) {
+  open(writeStates("looked", 1.0));
+  const auto state = [&] { return window_->workflow().status(StepId::Review).state; };
+  EXPECT_EQ(state(), StepState::NotStarted);
+  window_->workflow().goTo(StepId::Review);
+  ASSERT_TRUE(waitForJobs(*window_, 30));
+  EXPECT_EQ(state(), StepState::Current);
+  window_->workflow().goTo(StepId::Machine);
+  window_->session().setExcluded({{QStringLiteral("M1/P2/EX"), QStringLiteral("bumped")}});
+  EXPECT_EQ(state(), StepState::Outdated);
+  EXPECT_NE(window_->workflow().status(StepId::Review).sentence.indexOf(QStringLiteral("1 exclusion more")), -1)
+      << window_->workflow().status(StepId::Review).sentence.toStdString();
+  window_->workflow().goTo(StepId::Review);
+  ASSERT_TRUE(waitForJobs(*window_, 30));
+  EXPECT_EQ(state(), StepState::Current);
+}
+
 TEST_F(Review, StatesStandSideBySideWithOneScaleAndOneCamera) {
   open(writeStates("states", 1.0));
+  EXPECT_EQ(window_->workflow().status(StepId::Review).state, StepState::NotStarted);
   auto* page = go<ReviewPage>(StepId::Review);
   ASSERT_NE(page, nullptr);
+  ASSERT_TRUE(waitForJobs(*window_, 30));
   EXPECT_EQ(window_->workflow().status(StepId::Review).state, StepState::Current);
   EXPECT_EQ(page->slider()->maximum(), 3);
   page->setPanes(4);
