@@ -9,11 +9,12 @@
 #include <opencv2/videoio.hpp>
 
 #include "core/base/error.h"
+#include "core/imaging/image_files.h"
 
 namespace spindrift {
 
 struct CameraSource::Device {
-  cv::VideoCapture capture;
+  std::unique_ptr<cv::VideoCapture> capture = imageFiles().capture();
   std::optional<GrayImage> first;  ///< read when it was opened
 };
 
@@ -57,11 +58,11 @@ CameraSource CameraSource::open(const std::string& source) {
   }
   bool opened = false;
   try {
-    opened = number ? camera.device_->capture.open(std::stoi(source)) : camera.device_->capture.open(source);
+    opened = number ? camera.device_->capture->open(std::stoi(source)) : camera.device_->capture->open(source);
   } catch (const cv::Exception&) {
     opened = false;
   }
-  if (opened) camera.device_->first = grab(camera.device_->capture);
+  if (opened) camera.device_->first = grab(*camera.device_->capture);
   if (!camera.device_->first) {
     throw InputError(
         fmt::format("camera \"{}\" gives no image; is it connected, and does no other program use it?", source));
@@ -75,24 +76,26 @@ std::optional<GrayImage> CameraSource::read() {
     device_->first.reset();
     return first;
   }
-  return grab(device_->capture);
+  return grab(*device_->capture);
 }
 
 double CameraSource::framesPerSecond() const {
-  const double rate = device_->capture.get(cv::CAP_PROP_FPS);
+  const double rate = device_->capture->get(cv::CAP_PROP_FPS);
   return rate > 0.0 && rate < 1000.0 ? rate : 0.0;
 }
 
 void writeVideo(const std::string& file, const std::vector<GrayImage>& images, double frames_per_second) {
   if (images.empty()) throw InputError({file, ""}, "cannot be written: no images.");
   const cv::Size size(images.front().width(), images.front().height());
-  cv::VideoWriter writer;
+  const std::unique_ptr<cv::VideoWriter> writer = imageFiles().writer();
+  constexpr int motion_jpeg = 'M' | 'J' << 8 | 'P' << 16 | 'G' << 24;
   try {
-    writer.open(file, cv::CAP_OPENCV_MJPEG, cv::VideoWriter::fourcc('M', 'J', 'P', 'G'), frames_per_second, size, true);
+    writer->open(file, cv::CAP_OPENCV_MJPEG, motion_jpeg, frames_per_second, size, true);
   } catch (const cv::Exception&) {
     throw InputError({file, ""}, "cannot be written as a video.");
   }
-  if (!writer.isOpened()) throw InputError({file, ""}, "cannot be written as a video; allowed: a name ending in .avi.");
+  if (!writer->isOpened())
+    throw InputError({file, ""}, "cannot be written as a video; allowed: a name ending in .avi.");
   for (const GrayImage& image : images) {
     if (image.width() != size.width || image.height() != size.height) {
       throw InputError({file, ""}, "cannot be written: the images differ in size.");
@@ -100,7 +103,7 @@ void writeVideo(const std::string& file, const std::vector<GrayImage>& images, d
     const cv::Mat grey(size, CV_8UC1, const_cast<std::uint8_t*>(image.data()));
     cv::Mat colour;
     cv::cvtColor(grey, colour, cv::COLOR_GRAY2BGR);
-    writer.write(colour);
+    writer->write(colour);
   }
 }
 

@@ -11,6 +11,7 @@
 
 #include "core/base/atomic_file.h"
 #include "core/base/error.h"
+#include "core/imaging/image_files.h"
 
 namespace spindrift {
 namespace {
@@ -139,7 +140,7 @@ void requireSize(const std::filesystem::path& name, double width, double height)
 
 std::string encode(const cv::Mat& mat, const char* extension, const std::vector<int>& parameters) {
   std::vector<unsigned char> buffer;
-  const bool done = cv::imencode(extension, mat, buffer, parameters);
+  const bool done = imageFiles().encode(extension, mat, buffer, parameters);
   SPINDRIFT_ASSERT(done, "the picture can be encoded");
   return {buffer.begin(), buffer.end()};
 }
@@ -185,7 +186,7 @@ GrayImage decodeImageBytes(std::string_view bytes, const std::filesystem::path& 
   if (stated.width > 0.0 && stated.height > 0.0) {
     try {
       const cv::Mat buffer(1, static_cast<int>(bytes.size()), CV_8UC1, const_cast<char*>(bytes.data()));
-      mat = cv::imdecode(buffer, cv::IMREAD_GRAYSCALE | cv::IMREAD_IGNORE_ORIENTATION);
+      mat = imageFiles().decode(buffer, cv::IMREAD_GRAYSCALE | cv::IMREAD_IGNORE_ORIENTATION);
     } catch (const cv::Exception& failure) {
       if (failure.code == cv::Error::StsNoMem) throw std::bad_alloc();
       mat.release();

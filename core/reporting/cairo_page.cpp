@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "core/base/error.h"
+#include "core/imaging/image_files.h"
 
 namespace spindrift {
 namespace {
@@ -26,7 +27,8 @@ cairo_status_t append(void* bytes, const unsigned char* data, unsigned length) {
 
 /// A JPEG as a surface; in a PDF its own bytes are kept. Null if it cannot be read.
 CairoSurface pictureSurface(const std::string& jpeg) {
-  const cv::Mat seen = cv::imdecode(std::vector<unsigned char>(jpeg.begin(), jpeg.end()), cv::IMREAD_COLOR);
+  const cv::Mat bytes(1, static_cast<int>(jpeg.size()), CV_8UC1, const_cast<char*>(jpeg.data()));
+  const cv::Mat seen = imageFiles().decode(bytes, cv::IMREAD_COLOR);
   if (seen.empty()) return nullptr;
   CairoSurface surface(cairo_image_surface_create(CAIRO_FORMAT_RGB24, seen.cols, seen.rows));
   cairo_surface_flush(surface.get());

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/base/error.h"
+#include "core/imaging/image_files.h"
 
 namespace spindrift {
 namespace {
@@ -21,14 +22,14 @@ constexpr int jpeg_quality = 82;
 
 std::string encoded(const cv::Mat& image) {
   std::vector<unsigned char> bytes;
-  if (!cv::imencode(".jpg", image, bytes, {cv::IMWRITE_JPEG_QUALITY, jpeg_quality})) return {};
+  if (!imageFiles().encode(".jpg", image, bytes, {cv::IMWRITE_JPEG_QUALITY, jpeg_quality})) return {};
   return {bytes.begin(), bytes.end()};
 }
 
 /// Width and height of a picture made as large as fits into a box.
 std::pair<double, double> fittedSize(const std::string& jpeg, double width, double height) {
-  const std::vector<unsigned char> bytes(jpeg.begin(), jpeg.end());
-  const cv::Mat image = cv::imdecode(bytes, cv::IMREAD_GRAYSCALE);
+  const cv::Mat bytes(1, static_cast<int>(jpeg.size()), CV_8UC1, const_cast<char*>(jpeg.data()));
+  const cv::Mat image = imageFiles().decode(bytes, cv::IMREAD_GRAYSCALE);
   if (image.empty()) return {width, height};
   const double scale = std::min(width / image.cols, height / image.rows);
   return {scale * image.cols, scale * image.rows};
@@ -50,7 +51,7 @@ std::string imageThumbnail(const std::filesystem::path& file, int width_px) {
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(file, ignored)) return {};
   try {
-    image = cv::imread(file.string(), cv::IMREAD_REDUCED_GRAYSCALE_2);
+    image = imageFiles().read(file.string(), cv::IMREAD_REDUCED_GRAYSCALE_2);
   } catch (const cv::Exception&) {
     return {};  // larger than OpenCV reads
   }

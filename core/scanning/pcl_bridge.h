@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Registration with PCL: the paper's NDT followed by ICP (P3 section 3.3) and generalised ICP. The only file that sees
-// PCL is pcl_bridge.cpp.
+// Registration with PCL: the paper's NDT followed by ICP (P3 section 3.3) and generalised ICP.
 #pragma once
 
 #include "core/scanning/cloud.h"

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # What is installed, and the Debian package: cpack --config build/CPackConfig.cmake (or cmake --build build --target package).
 # Components: `runtime` is the programs (package spindrift), `dev` the compensator for controllers (package spindrift-dev).
-include(GNUInstallDirs)
 set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME runtime)
 install(TARGETS spindrift-cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+install(TARGETS spindrift_image_files spindrift_cloud_alignment LIBRARY DESTINATION ${SPINDRIFT_MODULES})
 if(TARGET spindrift-fe)
   install(TARGETS spindrift-fe RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 endif()

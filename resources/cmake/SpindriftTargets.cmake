@@ -57,6 +57,26 @@ function(spindrift_core_library name)
   endif()
 endfunction()
 
+# spindrift_module(<name> FOR <folder> SOURCES a.cpp ... LINK lib ... [SYSTEM dir ...])
+# A shared object that core/<folder> loads when it is first used (core/base/module.h): libraries of others behind one table of
+# functions. It takes nothing else of core, and no sanitizer, whose run-time is that of the program.
+function(spindrift_module name)
+  cmake_parse_arguments(ARG "" "FOR" "SOURCES;LINK;SYSTEM" ${ARGN})
+  add_library(spindrift_${name} MODULE ${ARG_SOURCES})
+  string(REPLACE _ - file ${name})
+  set_target_properties(
+    spindrift_${name} PROPERTIES PREFIX "" OUTPUT_NAME spindrift-${file} LIBRARY_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/${SPINDRIFT_MODULES}
+                                 CXX_VISIBILITY_PRESET hidden)
+  target_include_directories(spindrift_${name} PRIVATE ${CMAKE_SOURCE_DIR})
+  target_include_directories(spindrift_${name} SYSTEM PRIVATE ${ARG_SYSTEM})
+  target_compile_options(spindrift_${name} PRIVATE -Wall -Wextra $<$<BOOL:${SPINDRIFT_WARNINGS_AS_ERRORS}>:-Werror>
+                                                   -Wno-maybe-uninitialized -Wno-array-bounds)
+  target_link_libraries(spindrift_${name} PRIVATE ${ARG_LINK})
+  # What it takes is there, whoever loads it.
+  target_link_options(spindrift_${name} PRIVATE -Wl,-z,defs)
+  add_dependencies(spindrift_${ARG_FOR} spindrift_${name})
+endfunction()
+
 # spindrift_register_test(<name> [TIMED] [LABELS l ...] [PARTS <suffix>=<filter> ...])
 # Registers a GoogleTest program with ctest as <name>; one that takes minutes in parts, <name>_<suffix>, so that several run
 # at once and none takes too long on a slow machine. What no part names runs as <name>. The longest begin first

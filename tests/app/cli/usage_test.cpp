@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdio>
+#include <memory>
 #include <regex>
 
 #include "tests/app/cli/child_process.h"
@@ -49,6 +51,17 @@ TEST(Usage, HelpOnEveryLevel) {
     EXPECT_NE(help.output.find("--json"), std::string::npos) << name;
   }
   EXPECT_EQ(runCli({"--version"}).status, 0);
+}
+
+// GDAL behind OpenCV's image files and PCL bring four fifths of the names that the loader would look up at each start.
+TEST(Usage, AStartLoadsNoLibraryThatFewCommandsNeed) {
+  const std::unique_ptr<FILE, int (*)(FILE*)> lister(popen("LD_TRACE_LOADED_OBJECTS=1 " SPINDRIFT_CLI, "r"), pclose);
+  ASSERT_NE(lister, nullptr);
+  std::string listed;
+  for (char part[4096]; std::fgets(part, sizeof part, lister.get()) != nullptr;) listed += part;
+  ASSERT_NE(listed.find("libopencv_core"), std::string::npos) << listed;
+  for (const char* late : {"libgdal", "libpcl_", "libopencv_imgcodecs", "libopencv_videoio", "libavcodec", "libvtk"})
+    EXPECT_EQ(listed.find(late), std::string::npos) << late;
 }
 
 TEST(Usage, UnitsAreWrittenAsPeopleWriteThem) {
