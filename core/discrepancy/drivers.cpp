@@ -239,21 +239,31 @@ Eigen::VectorXd DriverTable::response(const Driver& driver, double tau_on_s, dou
   const std::size_t n = time_s_.size();
   SPINDRIFT_ASSERT(n > 0 && driver.values.size() == n, "a driver without its log");
   if (tau_off_s < 0.0) tau_off_s = tau_on_s;
-  // Advances the state by dt under the input u0 (at the start) with the given slope.
-  const auto advance = [&](double q, double u0, double slope, double dt) {
-    const double tau = u0 != 0.0 ? tau_on_s : tau_off_s;
-    if (tau <= 0.0) return u0 + slope * dt;
-    const double decay = std::exp(-dt / tau);
-    return u0 + slope * (dt - tau) + (q - u0 + slope * tau) * decay;
+  // A lag of first order over a step of dt, with the input u0 at its start and a slope: it keeps `decay` of its state,
+  // and gains what the input alone brings.
+  struct Lag {
+    double tau_s, dt_s = -1.0, decay = 0.0;
+    void step(double dt) {
+      if (dt == dt_s) return;
+      dt_s = dt;
+      decay = tau_s > 0.0 ? std::exp(-dt / tau_s) : 0.0;
+    }
+    [[nodiscard]] double gain(double u0, double slope) const {
+      const double start = u0 - slope * std::max(tau_s, 0.0);
+      return start + slope * dt_s - start * decay;
+    }
+  };
+  // Steps of the log are mostly of one length, and so are those to the readings after them.
+  Lag on{tau_on_s}, off{tau_off_s}, reading_on = on, reading_off = off;
+  const auto advanced = [](double q, Lag& lag, double u0, double slope, double dt) {
+    lag.step(dt);
+    return lag.gain(u0, slope) + q * lag.decay;
   };
   const bool lagged = tau_on_s > 0.0 || tau_off_s > 0.0;
   Eigen::VectorXd out(static_cast<Eigen::Index>(times_s.size()));
   std::size_t k = 0;
   const double before = driver.settled ? driver.values[0] : 0.0;
   double q = lagged ? before : driver.values[0];
-  double last_dt = -1.0;
-  double decay = 0.0;
-  const bool symmetric = tau_on_s == tau_off_s;
   for (std::size_t i = 0; i < times_s.size(); ++i) {
     const double t = times_s[i];
     while (k + 1 < n && time_s_[k + 1] <= t) {
@@ -263,15 +273,7 @@ Eigen::VectorXd DriverTable::response(const Driver& driver, double tau_on_s, dou
         q = driver.values[k + 1];
       } else if (dt > 0.0) {
         const double slope = driver.linear ? (driver.values[k + 1] - u) / dt : 0.0;
-        if (symmetric) {
-          if (dt != last_dt) {
-            decay = std::exp(-dt / tau_on_s);
-            last_dt = dt;
-          }
-          q = u + slope * (dt - tau_on_s) + (q - u + slope * tau_on_s) * decay;
-        } else {
-          q = advance(q, u, slope, dt);
-        }
+        q = advanced(q, u != 0.0 ? on : off, u, slope, dt);
       }
       ++k;
     }
@@ -284,7 +286,8 @@ Eigen::VectorXd DriverTable::response(const Driver& driver, double tau_on_s, dou
       out[static_cast<Eigen::Index>(i)] = lagged ? before : driver.values[0];
     } else {
       out[static_cast<Eigen::Index>(i)] =
-          lagged ? advance(q, driver.values[k], slope, dt) : driver.values[k] + slope * dt;
+          lagged ? advanced(q, driver.values[k] != 0.0 ? reading_on : reading_off, driver.values[k], slope, dt)
+                 : driver.values[k] + slope * dt;
     }
   }
   return out;
