@@ -57,7 +57,7 @@ double BorderedGram::deviance(double scale, double shift, double smooth) const {
       if (k > 0) chain.col(k) -= factor * before * chain.col(k - 1);
       chain.col(k) /= std::sqrt(pivot);
     }
-    left.selfadjointView<Eigen::Lower>().rankUpdate(chain, -1.0);
+    left.noalias() -= chain * chain.transpose();
   }
   const Eigen::LLT<Eigen::MatrixXd> llt(left);
   if (llt.info() != Eigen::Success) return beyond;

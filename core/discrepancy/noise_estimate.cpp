@@ -150,9 +150,9 @@ Products productsOf(const ResidualProblem& problem, const ComponentData& data, d
       const Eigen::LLT<Eigen::MatrixXd> llt(Eigen::MatrixXd::Identity(hats, hats) + b.transpose() * b);
       taken = llt.matrixL().solve(b.transpose() * columns.leftCols(total + 1));
       out.log_det += 2.0 * llt.matrixLLT().diagonal().array().log().sum();
-      out.gram.selfadjointView<Eigen::Lower>().rankUpdate(taken.leftCols(total).transpose(), -1.0);
+      out.gram.noalias() -= taken.leftCols(total).transpose() * taken.leftCols(total);
     }
-    out.gram.selfadjointView<Eigen::Lower>().rankUpdate(x.transpose());
+    out.gram.noalias() += x.transpose() * x;
     if (!problem.free_constants) continue;
     // A prior so wide that it is none; it keeps a series without weight from stopping all.
     constexpr double hardly_any = 1e-12;
