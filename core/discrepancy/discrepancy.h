@@ -109,6 +109,8 @@ struct NoiseEstimate {
   double common_um = 0.0;  ///< standard deviation of the shift common to all points of a state, um or urad
   double correlated_part = 0.0;
   double correlation_time_s = 0.0;
+  double drift_um = 0.0;  ///< of common_um, the part that drifts: standard deviation, um or urad
+  double drift_correlation_time_s = 0.0;
 };
 
 /// The component whose readings scatter most over their stated sigma, if one does by more than three times: what agrees

@@ -109,11 +109,14 @@ nlohmann::json DiscrepancyResult::json() const {
   out["unmatched_observations"] = unmatched;
   json noise_json = json::object();
   for (const NoiseEstimate& n : noise) {
-    noise_json[std::string(toString(n.component))] = {{"scale", jsonNumber(n.scale)},
-                                                      {"scale_uncertainty", jsonNumber(n.scale_uncertainty)},
-                                                      {"common_um", jsonNumber(n.common_um)},
-                                                      {"correlated_part", jsonNumber(n.correlated_part)},
-                                                      {"correlation_time_s", jsonNumber(n.correlation_time_s)}};
+    noise_json[std::string(toString(n.component))] = {
+        {"scale", jsonNumber(n.scale)},
+        {"scale_uncertainty", jsonNumber(n.scale_uncertainty)},
+        {"common_um", jsonNumber(n.common_um)},
+        {"correlated_part", jsonNumber(n.correlated_part)},
+        {"correlation_time_s", jsonNumber(n.correlation_time_s)},
+        {"drift_um", jsonNumber(n.drift_um)},
+        {"drift_correlation_time_s", jsonNumber(n.drift_correlation_time_s)}};
   }
   out["noise"] = noise_json;
   out["tail_dof"] = tail_dof > 0.0 ? jsonNumber(tail_dof) : json();

@@ -54,6 +54,10 @@ void warnAboutOutliers(const ResidualProblem& problem, const Eigen::VectorXd& le
   }
 }
 
+double driftOf(const ComponentNoise& n) {
+  return std::sqrt(n.drift_part) * n.common;
+}
+
 /// What is taken for a drift of the instrument, for the machine might have moved so. More than an instrument drifts is
 /// told with what remains.
 void tellDrift(Component c, const ComponentNoise& n, std::vector<std::string>& warnings) {
@@ -62,7 +66,7 @@ void tellDrift(Component c, const ComponentNoise& n, std::vector<std::string>& w
   warnings.push_back(
       fmt::format("{} of all points drifts together by {:.2f} {} rms, with a correlation time of {:.0f} "
                   "min: it is taken for a drift of the instrument.",
-                  toString(c), std::sqrt(n.drift_part) * n.common, printedUnit(unitOf(c)), n.drift_time_s / s_per_min));
+                  toString(c), driftOf(n), printedUnit(unitOf(c)), n.drift_time_s / s_per_min));
 }
 
 void tellScales(const ResidualProblem& problem, DiscrepancyResult& result) {
@@ -72,7 +76,8 @@ void tellScales(const ResidualProblem& problem, DiscrepancyResult& result) {
     const ComponentNoise& n = problem.noise.of(c);
     const double tails = std::sqrt(n.varianceOfStudent());
     const double scale = n.scale * tails;
-    result.noise.push_back({c, scale, n.scale_uncertainty * tails, n.common, n.correlated_part, n.correlation_time_s});
+    result.noise.push_back({c, scale, n.scale_uncertainty * tails, n.common, n.correlated_part, n.correlation_time_s,
+                            driftOf(n), n.drift_time_s});
     if (std::find(beyond.begin(), beyond.end(), c) == beyond.end()) tellDrift(c, n, result.warnings);
     if (scale >= 0.8 && scale <= 1.25) continue;
     const int decimals = std::clamp(1 - static_cast<int>(std::floor(std::log10(scale))), 0, 9);  // two digits count

@@ -281,7 +281,9 @@ void parseRest(const nlohmann::json& result, DiscrepancyStory& story) {
   for (const auto& [name, n] : result.at("noise").items()) {
     story.noise.push_back({componentOf(name), storedNumber(n, "scale"), storedNumber(n, "scale_uncertainty"),
                            storedNumber(n, "common_um"), storedNumber(n, "correlated_part"),
-                           storedNumber(n, "correlation_time_s")});
+                           storedNumber(n, "correlation_time_s"),
+                           n.contains("drift_um") ? storedNumber(n, "drift_um") : 0.0,
+                           n.contains("drift_um") ? storedNumber(n, "drift_correlation_time_s") : 0.0});
   }
   for (const auto& s : result.at("state_shifts")) {
     story.shifts.push_back({s.at("state").get<std::string>(), componentOf(s.at("component")), storedNumber(s, "time_s"),

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -115,12 +116,29 @@ TEST(CommonNoise, ThatDriftsIsToldAsTheInstrumentsAndNamesNothing) {
   // The instrument drifts by half to once the scatter of a reading: it was named as an effect in one campaign of ten.
   int none = 0;
   int told = 0;
+  int drifting = 0;
   for (std::uint64_t number = 0; number < 5; ++number) {
     StudyOptions study;
     study.kind = StudyKind::Nothing;
     study.conditions.drift = true;
-    const DiscrepancyResult result = answerTo(studyCase(study, 71'500 + number));
+    const StudyCase made = studyCase(study, 71'500 + number);
+    const DiscrepancyResult result = answerTo(made);
     EXPECT_TRUE(result.effects.empty()) << number;
+    for (const NoiseEstimate& n : result.noise) {
+      EXPECT_EQ(n.drift_um > 0.0, n.drift_correlation_time_s > 0.0) << number;
+      if (!(n.drift_um > 0.0)) continue;
+      // Drawn: the scatter of a walk about its mean over a few correlation times varies by a factor of its own.
+      double squares = 0.0, sum = 0.0, states = 0.0;
+      for (const auto& [where, shift] : made.applied.shifts) {
+        if (where.second != n.component) continue;
+        squares += shift * shift;
+        sum += shift;
+        ++states;
+      }
+      const double scatter = std::sqrt(squares / states - (sum / states) * (sum / states));
+      EXPECT_NEAR(std::log(n.drift_um / scatter), 0.0, std::log(1.6)) << number;
+      ++drifting;
+    }
     none += result.verdict == DiscrepancyVerdict::None ? 1 : 0;
     told += std::any_of(result.warnings.begin(), result.warnings.end(),
                         [](const std::string& warning) {
@@ -130,6 +148,7 @@ TEST(CommonNoise, ThatDriftsIsToldAsTheInstrumentsAndNamesNothing) {
                 : 0;
   }
   EXPECT_GE(none, 2);  // what is larger than instruments make it is told as something that remains
+  EXPECT_GE(drifting, 2);
   EXPECT_GE(told, 2);  // and where shifts do not clearly follow each other they are re-referencing
 }
 
