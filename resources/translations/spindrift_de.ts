@@ -1253,10 +1253,6 @@
         <translation>LinuxCNC-Spindelsteigungskompensation von {}, als Trimm</translation>
     </message>
     <message>
-        <source>Available at any time.</source>
-        <translation>Jederzeit einsehbar.</translation>
-    </message>
-    <message>
         <source>Machine of the plant, as of {}</source>
         <translation>Maschine des Werks, Stand {}</translation>
     </message>
@@ -11551,6 +11547,22 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>is neither HTML nor PDF by its ending; allowed: a name that ends in .html or .pdf.</source>
         <translation>ist nach seiner Endung weder HTML noch PDF; erlaubt: ein Name, der auf .html oder .pdf endet.</translation>
+    </message>
+    <message>
+        <source>A part of this installation cannot be loaded ({}); install Spindrift again.</source>
+        <translation>Ein Teil dieser Installation lässt sich nicht laden ({}); installieren Sie Spindrift neu.</translation>
+    </message>
+    <message>
+        <source>Changed since you looked: {}. Look again.</source>
+        <translation>Geändert, seit Sie nachgesehen haben: {}. Sehen Sie noch einmal nach.</translation>
+    </message>
+    <message>
+        <source>Compare states, simulation and model side by side.</source>
+        <translation>Vergleichen Sie Zustände, Simulation und Modell nebeneinander.</translation>
+    </message>
+    <message>
+        <source>You have looked at what there is.</source>
+        <translation>Sie haben alles Vorhandene angesehen.</translation>
     </message>
 </context>
 <context>

@@ -9,6 +9,7 @@
 std::span<const char* const> spindrift::gui::core_formats::base() noexcept {
   static const char* const formats[] = {
     QT_TRANSLATE_NOOP("core", "(numbers seem to be written with a decimal comma)"),
+    QT_TRANSLATE_NOOP("core", "A part of this installation cannot be loaded ({}); install Spindrift again."),
     QT_TRANSLATE_NOOP("core", "\"{}\" is not a number; allowed: a finite number with a decimal point."),
     QT_TRANSLATE_NOOP("core", "\"{}\" {}; allowed: a file inside the folder, given relative to it."),
     QT_TRANSLATE_NOOP("core", "a column has no name; allowed: one name per column."),
