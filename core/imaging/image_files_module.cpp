@@ -31,7 +31,6 @@ std::unique_ptr<cv::VideoWriter> writer() {
 }  // namespace
 
 extern "C" {
-extern const spindrift::ImageFiles spindrift_image_files;
-__attribute__((visibility("default")))
+extern __attribute__((visibility("default"))) const spindrift::ImageFiles spindrift_image_files;
 const spindrift::ImageFiles spindrift_image_files{encode, decode, read, capture, writer};
 }

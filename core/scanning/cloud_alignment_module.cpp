@@ -134,6 +134,6 @@ CloudAlignment align(const std::vector<Eigen::Vector3f>& source, const std::vect
 }  // namespace spindrift
 
 extern "C" {
-extern const spindrift::CloudAligner spindrift_cloud_aligner;
-__attribute__((visibility("default"))) const spindrift::CloudAligner spindrift_cloud_aligner{spindrift::align};
+extern __attribute__((visibility("default"))) const spindrift::CloudAligner spindrift_cloud_aligner;
+const spindrift::CloudAligner spindrift_cloud_aligner{spindrift::align};
 }
