@@ -7,6 +7,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/reporting/report.h"
@@ -17,6 +18,9 @@ struct ReportLanguage {
   std::string code;  ///< ISO 639-1, such as "de"
   /// An English text of a report in the language: a sentence, a title, a number with its unit. Called from any thread.
   std::function<std::string(const std::string& english)> words;
+  /// A text of the reference of files, which has a catalogue of its own: single words of it mean other things
+  /// elsewhere.
+  std::function<std::string(std::string_view english)> of_files;
 };
 
 /// Nothing: English alone. Before any report is written, for the whole process.

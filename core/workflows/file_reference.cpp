@@ -82,16 +82,20 @@ std::vector<FileFormat> made() {
   return all;
 }
 
-std::string markdownOf(const FileFormat& format) {
+std::string markdownOf(const FileFormat& format, const TextTranslation& translation) {
+  const auto in = [&](std::string_view english) {
+    return translation && !english.empty() ? translation(english) : std::string(english);
+  };
   std::string text =
-      fmt::format("## {}{}\n\n", format.file, format.format.empty() ? std::string() : " (" + format.format + ")");
-  text += format.what + "\n\n";
+      fmt::format("## {}{}\n\n", in(format.file), format.format.empty() ? std::string() : " (" + format.format + ")");
+  text += in(format.what) + "\n\n";
   if (!format.example.empty()) text += "```json\n" + format.example + "\n```\n\n";
   if (format.keys.empty()) return text;
-  text += "| Key or column | Unit | Without it | Allowed | Meaning |\n|---|---|---|---|---|\n";
+  text += fmt::format("| {} | {} | {} | {} | {} |\n|---|---|---|---|---|\n", in("Key or column"), in("Unit"),
+                      in("Without it"), in("Allowed"), in("Meaning"));
   for (const FileKey& key : format.keys) {
-    text += fmt::format("| `{}` | {} | {} | {} | {} |\n", key.path, printedUnit(key.unit), key.without, key.allowed,
-                        key.meaning);
+    text += fmt::format("| `{}` | {} | {} | {} | {} |\n", key.path, printedUnit(key.unit), in(key.without),
+                        in(key.allowed), in(key.meaning));
   }
   return text + "\n";
 }
@@ -109,12 +113,13 @@ std::span<const FileFormat> fileFormats() {
   return all;
 }
 
-std::string filesMarkdown(std::string_view id) {
+std::string filesMarkdown(std::string_view id, const TextTranslation& translation) {
   std::vector<std::string> ids;
-  std::string text = id.empty() ? std::string(filesIntroduction()) + "\n" : std::string();
+  const std::string introduction(filesIntroduction());
+  std::string text = id.empty() ? (translation ? translation(introduction) : introduction) + "\n" : std::string();
   for (const FileFormat& format : fileFormats()) {
     ids.push_back(format.id);
-    if (id.empty() || id == format.id) text += markdownOf(format);
+    if (id.empty() || id == format.id) text += markdownOf(format, translation);
   }
   if (text.empty())
     throw InputError(fmt::format("\"{}\" is not a file that Spindrift knows; allowed: {}.", id, joinedList(ids, "or")));

@@ -10,6 +10,8 @@
 #include <string_view>
 #include <vector>
 
+#include "core/machine/driver_words.h"
+
 namespace spindrift {
 
 /// A key of a JSON document or a column of a table.
@@ -37,7 +39,8 @@ struct FileFormat {
 /// In the order of the chapter.
 [[nodiscard]] std::span<const FileFormat> fileFormats();
 
-/// The chapter of the manual; `id` names a single format. Throws InputError for one that is not known.
-[[nodiscard]] std::string filesMarkdown(std::string_view id = {});
+/// The chapter of the manual; `id` names a single format; keys and their values stay as they are in every language.
+/// Throws InputError for a format that is not known.
+[[nodiscard]] std::string filesMarkdown(std::string_view id = {}, const TextTranslation& translation = {});
 
 }  // namespace spindrift

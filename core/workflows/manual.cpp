@@ -82,14 +82,12 @@ Report manualIn(const ReportLanguage& language) {
   Report generated("Spindrift: the manual", "Version " SPINDRIFT_VERSION);
   addParameterMeanings(generated);
   addEffects(generated, [&](std::string_view english) { return language.words(std::string(english)); });
-  generated.callout(CalloutKind::Note,
-                    "The reference of the files follows in English, as their keys are. That of the commands is in the "
-                    "English manual.");
+  generated.callout(CalloutKind::Note, "The reference of the commands is in the English manual.");
   Report report = inLanguage(Report(generated.title(), generated.subtitle()), language);
   report.withoutSignatures();
   for (const std::string& chapter : chapters) addMarkdown(report, chapter);
+  addMarkdown(report, filesMarkdown({}, language.of_files));
   report.append(inLanguage(generated, language));
-  addMarkdown(report, filesMarkdown());
   return report;
 }
 

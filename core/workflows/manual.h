@@ -18,8 +18,7 @@ namespace spindrift {
 
 /// `commands`: reference of a program as Markdown (markdownReference), the last chapter; may be empty.
 [[nodiscard]] Report manual(std::string_view commands);
-/// In a language that its chapters were written in. The reference of files stands at its end, in English; that of the
-/// commands is left to the English one.
+/// In a language that its chapters were written in. The reference of the commands is left to the English one.
 [[nodiscard]] Report manualIn(const ReportLanguage& language);
 
 }  // namespace spindrift

@@ -11385,10 +11385,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>{}Eingänge: {}. Güte im freien Lauf, ohne den gemessenen Ausgang anzusehen.</translation>
     </message>
     <message>
-        <source>The reference of the files follows in English, as their keys are. That of the commands is in the English manual.</source>
-        <translation>Das Nachschlagewerk der Dateien folgt auf Englisch, wie ihre Schlüssel. Das der Befehle steht im englischen Handbuch.</translation>
-    </message>
-    <message>
         <source>(proposed)</source>
         <translation>(vorgeschlagen)</translation>
     </message>
@@ -11563,6 +11559,3075 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>You have looked at what there is.</source>
         <translation>Sie haben alles Vorhandene angesehen.</translation>
+    </message>
+    <message>
+        <source>The reference of the commands is in the English manual.</source>
+        <translation>Die Referenz der Befehle steht im englischen Handbuch.</translation>
+    </message>
+</context>
+<context>
+    <name>files</name>
+    <message>
+        <source># Files
+
+Everything Spindrift reads and writes is plain text in UTF-8, apart from images, point clouds and the database of a session. This chapter is
+written by the program from the table that its tests hold against its readers; `spindrift-cli files` prints it, `spindrift-cli files machine` one
+of its sections.
+
+Each reader checks what it reads. An unknown format, a newer version, a missing column or key, a value that is not a finite number, a
+time that runs backwards and a duplicate are reported in one sentence with file, line or path, the value found and what is allowed;
+nothing is written then. Unknown columns and keys are ignored or kept.
+
+- **JSON** documents carry `format` (in brackets behind each title) and `version` 1. A value that does not exist is `null`.
+- **CSV**: comma separated, decimal point, one header row, lines that begin with `#` are comments; text may stand in double quotes.
+- **Units** stand in the names. Positions mm, deviations um, small angles urad, rotary positions deg, expansion um/m, temperatures
+degC, times s since the start of the campaign.
+- **Frame**: the machine coordinate frame (MCF), right-handed, axes as in ISO 841. `c_deg` is the rotation of the table about +Z,
+counter-clockwise seen from above, whatever the control counts.
+- **Signs**: deviation = actual minus commanded position of the tool relative to the table; compensation = minus the deviation.
+- In the tables `[]` is each entry of a list, and *without it* says what holds where a key or column is absent.
+
+A **campaign** is a folder: `campaign.json`, `machine.json`, and where there are such `log.csv`, `captures/fiducials.csv`, `captures/touches.csv`,
+`captures/scans.csv`, `observations.csv` with `observations.cov.csv`, `warm_up.csv` (one point measured repeatedly while the instrument warms up,
+columns as in observations.csv), and what `campaign.json` names. No evaluation ever alters a campaign. Paths in its files are relative to their
+folder and do not leave it.
+</source>
+        <translation># Dateien
+
+Alles, was Spindrift liest und schreibt, ist Klartext in UTF-8, außer Bildern, Punktwolken und der Datenbank einer Sitzung. Dieses Kapitel schreibt
+das Programm aus der Tabelle, die seine Tests mit seinen Lesern vergleichen; `spindrift-cli files` druckt es auf Englisch, `spindrift-cli files machine`
+einen seiner Abschnitte.
+
+Jeder Leser prüft, was er liest. Ein unbekanntes Format, eine neuere Version, eine fehlende Spalte oder ein fehlender Schlüssel, ein Wert, der keine endliche Zahl
+ist, eine Zeit, die rückwärts läuft, und eine Dublette werden in einem Satz mit Datei, Zeile oder Pfad, gefundenem Wert und Zulässigem gemeldet;
+geschrieben wird dann nichts. Unbekannte Spalten und Schlüssel werden übergangen oder behalten.
+
+- **JSON**-Dokumente tragen `format` (in Klammern hinter jedem Titel) und `version` 1. Ein Wert, den es nicht gibt, ist `null`.
+- **CSV**: durch Kommas getrennt, Dezimalpunkt, eine Kopfzeile, Zeilen, die mit `#` beginnen, sind Kommentare; Text darf in doppelten Anführungszeichen stehen.
+- **Einheiten** stehen in den Namen. Positionen mm, Abweichungen um, kleine Winkel urad, Stellungen von Drehachsen deg, Ausdehnung um/m, Temperaturen
+degC, Zeiten s seit dem Beginn der Kampagne.
+- **Bezugssystem**: das Maschinenkoordinatensystem (MCF), rechtshändig, Achsen wie in ISO 841. `c_deg` ist die Drehung des Tisches um +Z,
+von oben gesehen gegen den Uhrzeigersinn, was immer die Steuerung zählt.
+- **Vorzeichen**: Abweichung = Istposition minus Sollposition des Werkzeugs relativ zum Tisch; Kompensation = minus die Abweichung.
+- In den Tabellen ist `[]` jeder Eintrag einer Liste, und *ohne ihn* sagt, was gilt, wo ein Schlüssel oder eine Spalte fehlt.
+
+Eine **Kampagne** ist ein Ordner: `campaign.json`, `machine.json`, und wo es sie gibt `log.csv`, `captures/fiducials.csv`, `captures/touches.csv`,
+`captures/scans.csv`, `observations.csv` mit `observations.cov.csv`, `warm_up.csv` (ein Punkt, der beim Warmlauf des Messgeräts wiederholt gemessen wird,
+Spalten wie in observations.csv), und was `campaign.json` nennt. Keine Auswertung ändert je eine Kampagne. Pfade in ihren Dateien gelten relativ zu
+ihrem Ordner und führen nicht hinaus.
+</translation>
+    </message>
+    <message>
+        <source>-0.1016 to 0.1016</source>
+        <translation>-0.1016 bis 0.1016</translation>
+    </message>
+    <message>
+        <source>-0.254 to 0.254</source>
+        <translation>-0.254 bis 0.254</translation>
+    </message>
+    <message>
+        <source>.dat, .frd</source>
+        <translation>.dat, .frd</translation>
+    </message>
+    <message>
+        <source>.frd, .dat, .vtu, .pvd</source>
+        <translation>.frd, .dat, .vtu, .pvd</translation>
+    </message>
+    <message>
+        <source>.inp</source>
+        <translation>.inp</translation>
+    </message>
+    <message>
+        <source>.pcd (ascii, binary, binary_compressed), .ply, .csv</source>
+        <translation>.pcd (ascii, binary, binary_compressed), .ply, .csv</translation>
+    </message>
+    <message>
+        <source>0 or more</source>
+        <translation>0 oder mehr</translation>
+    </message>
+    <message>
+        <source>0 to 100</source>
+        <translation>0 bis 100</translation>
+    </message>
+    <message>
+        <source>0 to 1000</source>
+        <translation>0 bis 1000</translation>
+    </message>
+    <message>
+        <source>0 to 10000</source>
+        <translation>0 bis 10000</translation>
+    </message>
+    <message>
+        <source>0 to 15000</source>
+        <translation>0 bis 15000</translation>
+    </message>
+    <message>
+        <source>0 to 247</source>
+        <translation>0 bis 247</translation>
+    </message>
+    <message>
+        <source>0 to 60</source>
+        <translation>0 bis 60</translation>
+    </message>
+    <message>
+        <source>0 to 6000</source>
+        <translation>0 bis 6000</translation>
+    </message>
+    <message>
+        <source>0 to below 1</source>
+        <translation>0 bis unter 1</translation>
+    </message>
+    <message>
+        <source>0.2 (mtconnect), 1</source>
+        <translation>0.2 (mtconnect), 1</translation>
+    </message>
+    <message>
+        <source>0: never</source>
+        <translation>0: nie</translation>
+    </message>
+    <message>
+        <source>0: taken as exact</source>
+        <translation>0: gilt als exakt</translation>
+    </message>
+    <message>
+        <source>1 (modbus), 5 (linuxcnc)</source>
+        <translation>1 (modbus), 5 (linuxcnc)</translation>
+    </message>
+    <message>
+        <source>1 or more</source>
+        <translation>1 oder mehr</translation>
+    </message>
+    <message>
+        <source>1 to 100</source>
+        <translation>1 bis 100</translation>
+    </message>
+    <message>
+        <source>1 to 90</source>
+        <translation>1 bis 90</translation>
+    </message>
+    <message>
+        <source>10 to 99</source>
+        <translation>10 bis 99</translation>
+    </message>
+    <message>
+        <source>2 or more</source>
+        <translation>2 oder mehr</translation>
+    </message>
+    <message>
+        <source>240 to 8192</source>
+        <translation>240 bis 8192</translation>
+    </message>
+    <message>
+        <source>320 to 8192</source>
+        <translation>320 bis 8192</translation>
+    </message>
+    <message>
+        <source>4 x 4 transform</source>
+        <translation>4 x 4-Transformation</translation>
+    </message>
+    <message>
+        <source>A folder: `spindrift-session.json`, `session.sqlite` with results, exclusions, notes and settings, and `campaigns/`. It can be copied to another computer; one process at a time works on it. `loop-state.json` (spindrift-loop-state) of a closed loop and what `plant export` writes (spindrift-plant-export) are kept by Spindrift and not meant to be edited.</source>
+        <translation>Ein Ordner: `spindrift-session.json`, `session.sqlite` mit Ergebnissen, Ausschlüssen, Notizen und Einstellungen, und `campaigns/`. Er lässt sich auf einen anderen Rechner kopieren; nur ein Prozess arbeitet zugleich daran. `loop-state.json` (spindrift-loop-state) eines Regelkreises und was `plant export` schreibt (spindrift-plant-export) führt Spindrift selbst; sie sind nicht zum Bearbeiten gedacht.</translation>
+    </message>
+    <message>
+        <source>A point cloud as .csv</source>
+        <translation>Eine Punktwolke als .csv</translation>
+    </message>
+    <message>
+        <source>A record of a reference instrument</source>
+        <translation>Ein Protokoll eines Referenzmessgeräts</translation>
+    </message>
+    <message>
+        <source>A session</source>
+        <translation>Eine Sitzung</translation>
+    </message>
+    <message>
+        <source>A simulation that can be run. The keys behind `parameters` depend on `kind`.</source>
+        <translation>Eine Simulation, die ausgeführt werden kann. Die Schlüssel hinter `parameters` hängen von `kind` ab.</translation>
+    </message>
+    <message>
+        <source>A sum of effects, on top of a table of predictions where one is named. `discrepancy --model-out` writes it.</source>
+        <translation>Eine Summe von Effekten, auf einer Tabelle von Vorhersagen, wo eine genannt ist. `discrepancy --model-out` schreibt sie.</translation>
+    </message>
+    <message>
+        <source>A template of printed text</source>
+        <translation>Eine Vorlage für gedruckten Text</translation>
+    </message>
+    <message>
+        <source>Allowed</source>
+        <translation>Zulässig</translation>
+    </message>
+    <message>
+        <source>Artwork of a fiducial. The origin is the centre of the ellipse of the first row and column, X along increasing columns, Y along increasing rows. The command `artwork` writes it.</source>
+        <translation>Vorlage einer Messmarke. Der Ursprung ist der Mittelpunkt der Ellipse der ersten Zeile und Spalte, X entlang wachsender Spalten, Y entlang wachsender Zeilen. Der Befehl `artwork` schreibt sie.</translation>
+    </message>
+    <message>
+        <source>Batch</source>
+        <translation>Stapel</translation>
+    </message>
+    <message>
+        <source>CSV that `compare-reference` holds against the probe.</source>
+        <translation>CSV, das `compare-reference` mit dem Messtaster vergleicht.</translation>
+    </message>
+    <message>
+        <source>CSV that `table` of simulator.json names.</source>
+        <translation>CSV, das `table` von simulator.json nennt.</translation>
+    </message>
+    <message>
+        <source>CSV: a deviation is the sum of weight times displacement.</source>
+        <translation>CSV: eine Abweichung ist die Summe von Gewicht mal Verschiebung.</translation>
+    </message>
+    <message>
+        <source>Connections to machines and sensors, and the columns of the log that come from them.</source>
+        <translation>Verbindungen zu Maschinen und Sensoren und die Spalten des Protokolls, die von dort kommen.</translation>
+    </message>
+    <message>
+        <source>Covariances between observations; pairs that are absent have none.</source>
+        <translation>Kovarianzen zwischen Beobachtungen; fehlende Paare haben keine.</translation>
+    </message>
+    <message>
+        <source>Ctrl, Alt, Shift, joined by +</source>
+        <translation>Ctrl, Alt, Shift, mit + verbunden</translation>
+    </message>
+    <message>
+        <source>Deviations with their uncertainty. warm_up.csv has the same columns.</source>
+        <translation>Abweichungen mit ihrer Unsicherheit. warm_up.csv hat dieselben Spalten.</translation>
+    </message>
+    <message>
+        <source>EX, EY, EZ</source>
+        <translation>EX, EY, EZ</translation>
+    </message>
+    <message>
+        <source>EX, EY, EZ, EA, EB, EC</source>
+        <translation>EX, EY, EZ, EA, EB, EC</translation>
+    </message>
+    <message>
+        <source>Effects of your own.</source>
+        <translation>Eigene Effekte.</translation>
+    </message>
+    <message>
+        <source>How a control prints touches. `{name}` takes a word or a number, `{skip}` anything; blanks match any number of blanks. Names are those behind `touch_line`, `artefact` and `stylus`. Other lines are counted and ignored.</source>
+        <translation>Wie eine Steuerung Antastungen druckt. `{name}` nimmt ein Wort oder eine Zahl, `{skip}` alles; Leerzeichen passen auf beliebig viele. Die Namen sind die hinter `touch_line`, `artefact` und `stylus`. Andere Zeilen werden gezählt und übergangen.</translation>
+    </message>
+    <message>
+        <source>How results of finite elements become deviations.</source>
+        <translation>Wie aus Ergebnissen finiter Elemente Abweichungen werden.</translation>
+    </message>
+    <message>
+        <source>Images of fiducials. They are JPEG, PNG, TIFF, BMP or PGM. Positions are commanded ones of the tool relative to the table.</source>
+        <translation>Bilder von Messmarken, als JPEG, PNG, TIFF, BMP oder PGM. Positionen sind Sollpositionen des Werkzeugs relativ zum Tisch.</translation>
+    </message>
+    <message>
+        <source>In the folder of an exercise; it holds nothing of the truth.</source>
+        <translation>Im Ordner einer Übung; sie enthält nichts von der Wahrheit.</translation>
+    </message>
+    <message>
+        <source>In the frame of the profiler: x along the profile, z height, y position of the carriage minus its start.</source>
+        <translation>Im System des Profilsensors: x entlang des Profils, z Höhe, y Position des Schlittens minus ihr Anfang.</translation>
+    </message>
+    <message>
+        <source>Key or column</source>
+        <translation>Schlüssel oder Spalte</translation>
+    </message>
+    <message>
+        <source>Many campaigns or seeds, one work on each.</source>
+        <translation>Viele Kampagnen oder Startwerte, an jeder eine Arbeit.</translation>
+    </message>
+    <message>
+        <source>Meaning</source>
+        <translation>Bedeutung</translation>
+    </message>
+    <message>
+        <source>Model over time</source>
+        <translation>Modell über der Zeit</translation>
+    </message>
+    <message>
+        <source>Name and start of a campaign, and what it is compared with.</source>
+        <translation>Name und Beginn einer Kampagne und womit sie verglichen wird.</translation>
+    </message>
+    <message>
+        <source>Plan of a closed loop</source>
+        <translation>Plan eines Regelkreises</translation>
+    </message>
+    <message>
+        <source>Point clouds of a laser profiler.</source>
+        <translation>Punktwolken eines Laserprofilsensors.</translation>
+    </message>
+    <message>
+        <source>Scenario of the virtual machine</source>
+        <translation>Szenario der virtuellen Maschine</translation>
+    </message>
+    <message>
+        <source>Sensitivities of a simulator</source>
+        <translation>Empfindlichkeiten eines Simulators</translation>
+    </message>
+    <message>
+        <source>The machine with its sensors, measuring points, artefacts and instruments. A command that needs a key that is absent says so.</source>
+        <translation>Die Maschine mit Sensoren, Messpunkten, Prüfkörpern und Messgeräten. Ein Befehl, der einen fehlenden Schlüssel braucht, sagt es.</translation>
+    </message>
+    <message>
+        <source>Touches of a probe.</source>
+        <translation>Antastungen eines Messtasters.</translation>
+    </message>
+    <message>
+        <source>Unit</source>
+        <translation>Einheit</translation>
+    </message>
+    <message>
+        <source>Weights of nodes</source>
+        <translation>Gewichte von Knoten</translation>
+    </message>
+    <message>
+        <source>What `loop` measures, models and compensates on a control. `loop --example DIR` writes one.</source>
+        <translation>Was `loop` an einer Steuerung misst, modelliert und kompensiert. `loop --example DIR` schreibt einen.</translation>
+    </message>
+    <message>
+        <source>What `simulate` makes a campaign from. Without `sensors` the log has those of the machine file. Effects are named by their ids and may have parameters of their own; `table`, `rotary` and other places are bodies of the machine.</source>
+        <translation>Woraus `simulate` eine Kampagne macht. Ohne `sensors` hat das Protokoll die der Maschinendatei. Effekte werden bei ihrer Kennung genannt und dürfen eigene Parameter haben; `table`, `rotary` und andere Orte sind Körper der Maschine.</translation>
+    </message>
+    <message>
+        <source>What a simulation predicts; linear in time and never beyond its rows. Observations without a prediction are left out and counted.</source>
+        <translation>Was eine Simulation vorhersagt; linear in der Zeit und nie über ihre Zeilen hinaus. Beobachtungen ohne Vorhersage werden ausgelassen und gezählt.</translation>
+    </message>
+    <message>
+        <source>What is to be measured, and when.</source>
+        <translation>Was gemessen werden soll und wann.</translation>
+    </message>
+    <message>
+        <source>What the machine did. Speeds and switches hold until the next row, temperatures are linear between rows. Rows may be irregular, fields may be empty; a column that is not listed is a signal under its name.</source>
+        <translation>Was die Maschine tat. Drehzahlen, Vorschübe und Schalter gelten bis zur nächsten Zeile, Temperaturen verlaufen dazwischen linear. Zeilen dürfen unregelmäßig, Felder leer sein; eine Spalte, die nicht genannt ist, ist ein Signal unter ihrem Namen.</translation>
+    </message>
+    <message>
+        <source>What was done at the window</source>
+        <translation>Was am Fenster getan wurde</translation>
+    </message>
+    <message>
+        <source>Without it</source>
+        <translation>Ohne ihn</translation>
+    </message>
+    <message>
+        <source>Written by `spindrift --record FILE`, so that others can do it again. Controls are named by what stands on them, in the language that it was made in. Everything that is typed is in it.</source>
+        <translation>Geschrieben von `spindrift --record FILE`, damit andere es wieder tun können. Bedienelemente werden nach ihrer Aufschrift benannt, in der Sprache, in der aufgezeichnet wurde. Alles Eingetippte steht darin.</translation>
+    </message>
+    <message>
+        <source>Written by `thermal identify`, read by `thermal track`, `thermal compensate` and the compensator. Another JSON document may carry it as `thermal_model` or `model`.</source>
+        <translation>Geschrieben von `thermal identify`, gelesen von `thermal track`, `thermal compensate` und dem Kompensator. Ein anderes JSON-Dokument darf es als `thermal_model` oder `model` enthalten.</translation>
+    </message>
+    <message>
+        <source>`named`, `ask`, ids of effects</source>
+        <translation>`named`, `ask`, Kennungen von Effekten</translation>
+    </message>
+    <message>
+        <source>`simulation.csv`, `model.json` or `fe.json`</source>
+        <translation>`simulation.csv`, `model.json` oder `fe.json`</translation>
+    </message>
+    <message>
+        <source>a UTC time</source>
+        <translation>eine UTC-Zeit</translation>
+    </message>
+    <message>
+        <source>a UTC time such as 2026-01-31T08:00:00Z</source>
+        <translation>eine UTC-Zeit wie 2026-01-31T08:00:00Z</translation>
+    </message>
+    <message>
+        <source>a column of the log</source>
+        <translation>eine Spalte des Protokolls</translation>
+    </message>
+    <message>
+        <source>a demo of the program</source>
+        <translation>eine Vorführung des Programms</translation>
+    </message>
+    <message>
+        <source>a door opens</source>
+        <translation>ein Tor öffnet sich</translation>
+    </message>
+    <message>
+        <source>a driver of the log</source>
+        <translation>eine Antriebsgröße des Protokolls</translation>
+    </message>
+    <message>
+        <source>a file</source>
+        <translation>eine Datei</translation>
+    </message>
+    <message>
+        <source>a file beside the plan</source>
+        <translation>eine Datei neben dem Plan</translation>
+    </message>
+    <message>
+        <source>a file of the campaign</source>
+        <translation>eine Datei der Kampagne</translation>
+    </message>
+    <message>
+        <source>a file of the folder</source>
+        <translation>eine Datei des Ordners</translation>
+    </message>
+    <message>
+        <source>a file with the columns below</source>
+        <translation>eine Datei mit den Spalten unten</translation>
+    </message>
+    <message>
+        <source>a folder</source>
+        <translation>ein Ordner</translation>
+    </message>
+    <message>
+        <source>a folder beside the plan</source>
+        <translation>ein Ordner neben dem Plan</translation>
+    </message>
+    <message>
+        <source>a key such as Return</source>
+        <translation>eine Taste wie Return</translation>
+    </message>
+    <message>
+        <source>a log beyond it is put aside and a new one begun</source>
+        <translation>ein größeres Protokoll wird beiseitegelegt und ein neues begonnen</translation>
+    </message>
+    <message>
+        <source>a number</source>
+        <translation>eine Zahl</translation>
+    </message>
+    <message>
+        <source>a parameter of the simulator</source>
+        <translation>ein Parameter des Simulators</translation>
+    </message>
+    <message>
+        <source>a pattern</source>
+        <translation>ein Muster</translation>
+    </message>
+    <message>
+        <source>a pattern with {x}, {y}, {z}</source>
+        <translation>ein Muster mit {x}, {y}, {z}</translation>
+    </message>
+    <message>
+        <source>a prediction off by more is measured earlier</source>
+        <translation>eine Vorhersage, die um mehr abweicht, wird früher gemessen</translation>
+    </message>
+    <message>
+        <source>a row is written where it changes by more</source>
+        <translation>eine Zeile wird geschrieben, wo er sich um mehr ändert</translation>
+    </message>
+    <message>
+        <source>a set of the mesh</source>
+        <translation>eine Menge des Netzes</translation>
+    </message>
+    <message>
+        <source>a simulation that can be run</source>
+        <translation>eine Simulation, die ausgeführt werden kann</translation>
+    </message>
+    <message>
+        <source>a source above</source>
+        <translation>eine Quelle von oben</translation>
+    </message>
+    <message>
+        <source>a state of the plan</source>
+        <translation>ein Zustand des Plans</translation>
+    </message>
+    <message>
+        <source>a surface of the machine</source>
+        <translation>eine Fläche der Maschine</translation>
+    </message>
+    <message>
+        <source>above 0</source>
+        <translation>größer als 0</translation>
+    </message>
+    <message>
+        <source>address</source>
+        <translation>Adresse</translation>
+    </message>
+    <message>
+        <source>age of inputs beyond which nothing is known</source>
+        <translation>Alter der Eingänge, ab dem nichts bekannt ist</translation>
+    </message>
+    <message>
+        <source>all</source>
+        <translation>alle</translation>
+    </message>
+    <message>
+        <source>along the profile</source>
+        <translation>entlang des Profils</translation>
+    </message>
+    <message>
+        <source>along the scan</source>
+        <translation>entlang der Aufnahme</translation>
+    </message>
+    <message>
+        <source>alternatives; a list within the list acts together</source>
+        <translation>Alternativen; eine Liste in der Liste wirkt gemeinsam</translation>
+    </message>
+    <message>
+        <source>among the controls of that name</source>
+        <translation>unter den Bedienelementen dieses Namens</translation>
+    </message>
+    <message>
+        <source>amplitude over a day</source>
+        <translation>Amplitude über einen Tag</translation>
+    </message>
+    <message>
+        <source>an artefact of the machine</source>
+        <translation>ein Prüfkörper der Maschine</translation>
+    </message>
+    <message>
+        <source>angle about X known from elsewhere</source>
+        <translation>anderswoher bekannter Winkel um X</translation>
+    </message>
+    <message>
+        <source>angle about Y known from elsewhere</source>
+        <translation>anderswoher bekannter Winkel um Y</translation>
+    </message>
+    <message>
+        <source>angle about Z known from elsewhere</source>
+        <translation>anderswoher bekannter Winkel um Z</translation>
+    </message>
+    <message>
+        <source>angle, standard uncertainty</source>
+        <translation>Winkel, Standardunsicherheit</translation>
+    </message>
+    <message>
+        <source>angles of the table, one state after another</source>
+        <translation>Winkel des Tisches, ein Zustand nach dem anderen</translation>
+    </message>
+    <message>
+        <source>artefact</source>
+        <translation>Prüfkörper</translation>
+    </message>
+    <message>
+        <source>artefact of the machine</source>
+        <translation>Prüfkörper der Maschine</translation>
+    </message>
+    <message>
+        <source>artefact, where the line does not name it</source>
+        <translation>Prüfkörper, wo ihn die Zeile nicht nennt</translation>
+    </message>
+    <message>
+        <source>artwork of the fiducials</source>
+        <translation>Vorlage der Messmarken</translation>
+    </message>
+    <message>
+        <source>as before</source>
+        <translation>wie zuvor</translation>
+    </message>
+    <message>
+        <source>as in ISO 10791-1</source>
+        <translation>wie in ISO 10791-1</translation>
+    </message>
+    <message>
+        <source>as in the catalogue</source>
+        <translation>wie im Katalog</translation>
+    </message>
+    <message>
+        <source>as in the chain</source>
+        <translation>wie in der Kette</translation>
+    </message>
+    <message>
+        <source>as many as fit</source>
+        <translation>so viele, wie passen</translation>
+    </message>
+    <message>
+        <source>as the command of that name</source>
+        <translation>wie der Befehl dieses Namens</translation>
+    </message>
+    <message>
+        <source>asked for</source>
+        <translation>wird erfragt</translation>
+    </message>
+    <message>
+        <source>at least 3</source>
+        <translation>mindestens 3</translation>
+    </message>
+    <message>
+        <source>at least 5</source>
+        <translation>mindestens 5</translation>
+    </message>
+    <message>
+        <source>at least one</source>
+        <translation>mindestens einer</translation>
+    </message>
+    <message>
+        <source>at least one row in that time</source>
+        <translation>mindestens eine Zeile in dieser Zeit</translation>
+    </message>
+    <message>
+        <source>at most 60 days</source>
+        <translation>höchstens 60 Tage</translation>
+    </message>
+    <message>
+        <source>at most the duration</source>
+        <translation>höchstens die Dauer</translation>
+    </message>
+    <message>
+        <source>at or cell instead</source>
+        <translation>stattdessen at oder cell</translation>
+    </message>
+    <message>
+        <source>at or part instead</source>
+        <translation>stattdessen at oder part</translation>
+    </message>
+    <message>
+        <source>axis along the crossbeam</source>
+        <translation>Achse entlang des Querbalkens</translation>
+    </message>
+    <message>
+        <source>axis along which is scanned</source>
+        <translation>Achse, entlang der aufgenommen wird</translation>
+    </message>
+    <message>
+        <source>axis along which the profiler measures, where that is not Z</source>
+        <translation>Achse, entlang der der Profilsensor misst, wo das nicht Z ist</translation>
+    </message>
+    <message>
+        <source>axis that carries the spindle</source>
+        <translation>Achse, die die Spindel trägt</translation>
+    </message>
+    <message>
+        <source>ball</source>
+        <translation>Kugel</translation>
+    </message>
+    <message>
+        <source>before the number of the cycle</source>
+        <translation>vor der Nummer des Zyklus</translation>
+    </message>
+    <message>
+        <source>beginning</source>
+        <translation>Beginn</translation>
+    </message>
+    <message>
+        <source>beginning of a speed</source>
+        <translation>Beginn einer Drehzahl</translation>
+    </message>
+    <message>
+        <source>blur in focus</source>
+        <translation>Unschärfe im Fokus</translation>
+    </message>
+    <message>
+        <source>blur out of focus</source>
+        <translation>Unschärfe außerhalb des Fokus</translation>
+    </message>
+    <message>
+        <source>body that it sits on; `@0.5` says where along it</source>
+        <translation>Körper, auf dem er sitzt; `@0.5` sagt, wo auf ihm</translation>
+    </message>
+    <message>
+        <source>bounds of the time constant</source>
+        <translation>Grenzen der Zeitkonstante</translation>
+    </message>
+    <message>
+        <source>button of the mouse</source>
+        <translation>Maustaste</translation>
+    </message>
+    <message>
+        <source>by how much</source>
+        <translation>um wie viel</translation>
+    </message>
+    <message>
+        <source>by the name</source>
+        <translation>nach dem Namen</translation>
+    </message>
+    <message>
+        <source>calculix: the result it leaves</source>
+        <translation>calculix: das Ergebnis, das es hinterlässt</translation>
+    </message>
+    <message>
+        <source>calculix: time between states</source>
+        <translation>calculix: Zeit zwischen Zuständen</translation>
+    </message>
+    <message>
+        <source>calculix: time of the undeformed state</source>
+        <translation>calculix: Zeit des unverformten Zustands</translation>
+    </message>
+    <message>
+        <source>calculix: unit of the displacements</source>
+        <translation>calculix: Einheit der Verschiebungen</translation>
+    </message>
+    <message>
+        <source>calculix: weights of nodes</source>
+        <translation>calculix: Gewichte von Knoten</translation>
+    </message>
+    <message>
+        <source>calibrated centre, from the first ball</source>
+        <translation>kalibrierter Mittelpunkt, von der ersten Kugel aus</translation>
+    </message>
+    <message>
+        <source>calibrated diameter</source>
+        <translation>kalibrierter Durchmesser</translation>
+    </message>
+    <message>
+        <source>campaign.json</source>
+        <translation>campaign.json</translation>
+    </message>
+    <message>
+        <source>campaigns instead</source>
+        <translation>stattdessen campaigns</translation>
+    </message>
+    <message>
+        <source>capital letters, digits and _</source>
+        <translation>Großbuchstaben, Ziffern und _</translation>
+    </message>
+    <message>
+        <source>capture</source>
+        <translation>Aufnahme</translation>
+    </message>
+    <message>
+        <source>captures/fiducials.csv</source>
+        <translation>captures/fiducials.csv</translation>
+    </message>
+    <message>
+        <source>captures/scans.csv</source>
+        <translation>captures/scans.csv</translation>
+    </message>
+    <message>
+        <source>captures/touches.csv</source>
+        <translation>captures/touches.csv</translation>
+    </message>
+    <message>
+        <source>carriage where the scan starts</source>
+        <translation>Schlitten am Beginn der Aufnahme</translation>
+    </message>
+    <message>
+        <source>cell of a table</source>
+        <translation>Zelle einer Tabelle</translation>
+    </message>
+    <message>
+        <source>centre of rotation</source>
+        <translation>Drehzentrum</translation>
+    </message>
+    <message>
+        <source>centre of rotation in the image</source>
+        <translation>Drehzentrum im Bild</translation>
+    </message>
+    <message>
+        <source>centre of the first ball</source>
+        <translation>Mittelpunkt der ersten Kugel</translation>
+    </message>
+    <message>
+        <source>centre of the nodes</source>
+        <translation>Mitte der Knoten</translation>
+    </message>
+    <message>
+        <source>centre of the table</source>
+        <translation>Mitte des Tisches</translation>
+    </message>
+    <message>
+        <source>change of shape as the machine warms up: curvature along Y, over half the length</source>
+        <translation>Formänderung beim Warmlauf der Maschine: Krümmung entlang Y, über die halbe Länge</translation>
+    </message>
+    <message>
+        <source>change of the light from image to image</source>
+        <translation>Änderung des Lichts von Bild zu Bild</translation>
+    </message>
+    <message>
+        <source>change of the prediction</source>
+        <translation>Änderung der Vorhersage</translation>
+    </message>
+    <message>
+        <source>changes since the first value</source>
+        <translation>Änderungen seit dem ersten Wert</translation>
+    </message>
+    <message>
+        <source>circle 0, 0 from the origin</source>
+        <translation>Kreis 0, 0 vom Ursprung aus</translation>
+    </message>
+    <message>
+        <source>circle of the pocket in the tool frame</source>
+        <translation>Kreis der Tasche im Werkzeugsystem</translation>
+    </message>
+    <message>
+        <source>class and label</source>
+        <translation>Klasse und Aufschrift</translation>
+    </message>
+    <message>
+        <source>class of a window</source>
+        <translation>Klasse eines Fensters</translation>
+    </message>
+    <message>
+        <source>clock of the observations minus that of the log</source>
+        <translation>Uhr der Beobachtungen minus die des Protokolls</translation>
+    </message>
+    <message>
+        <source>coefficient of thermal expansion</source>
+        <translation>Wärmeausdehnungskoeffizient</translation>
+    </message>
+    <message>
+        <source>column instead</source>
+        <translation>stattdessen column</translation>
+    </message>
+    <message>
+        <source>column of the log</source>
+        <translation>Spalte des Protokolls</translation>
+    </message>
+    <message>
+        <source>columns</source>
+        <translation>Spalten</translation>
+    </message>
+    <message>
+        <source>columns of circles</source>
+        <translation>Spalten von Kreisen</translation>
+    </message>
+    <message>
+        <source>columns of ellipses</source>
+        <translation>Spalten von Ellipsen</translation>
+    </message>
+    <message>
+        <source>columns of the log</source>
+        <translation>Spalten des Protokolls</translation>
+    </message>
+    <message>
+        <source>columns of the log, with a power</source>
+        <translation>Spalten des Protokolls, mit einem Exponenten</translation>
+    </message>
+    <message>
+        <source>columns that the log lacks</source>
+        <translation>Spalten, die dem Protokoll fehlen</translation>
+    </message>
+    <message>
+        <source>command, calculix: files copied along</source>
+        <translation>command, calculix: Dateien, die mitkopiert werden</translation>
+    </message>
+    <message>
+        <source>command, calculix: files in which `{{name}}` or `{{name*1e-6}}` is replaced</source>
+        <translation>command, calculix: Dateien, in denen `{{name}}` oder `{{name*1e-6}}` ersetzt wird</translation>
+    </message>
+    <message>
+        <source>command, calculix: longest time of a run</source>
+        <translation>command, calculix: längste Zeit eines Laufs</translation>
+    </message>
+    <message>
+        <source>command, calculix: step of the tables</source>
+        <translation>command, calculix: Schritt der Tabellen</translation>
+    </message>
+    <message>
+        <source>command, calculix: what is run</source>
+        <translation>command, calculix: was ausgeführt wird</translation>
+    </message>
+    <message>
+        <source>command: the predictions it leaves</source>
+        <translation>command: die Vorhersagen, die es hinterlässt</translation>
+    </message>
+    <message>
+        <source>command: {seed} or {campaign} is replaced; prints one JSON document</source>
+        <translation>command: {seed} oder {campaign} wird ersetzt; gibt ein JSON-Dokument aus</translation>
+    </message>
+    <message>
+        <source>commanded position</source>
+        <translation>Sollposition</translation>
+    </message>
+    <message>
+        <source>component of the deviation</source>
+        <translation>Komponente der Abweichung</translation>
+    </message>
+    <message>
+        <source>component that it measures</source>
+        <translation>Komponente, die gemessen wird</translation>
+    </message>
+    <message>
+        <source>components that are measured</source>
+        <translation>Komponenten, die gemessen werden</translation>
+    </message>
+    <message>
+        <source>components to write</source>
+        <translation>Komponenten, die geschrieben werden</translation>
+    </message>
+    <message>
+        <source>connections.json</source>
+        <translation>connections.json</translation>
+    </message>
+    <message>
+        <source>constant</source>
+        <translation>Konstante</translation>
+    </message>
+    <message>
+        <source>constant in time</source>
+        <translation>zeitlich konstant</translation>
+    </message>
+    <message>
+        <source>control</source>
+        <translation>Bedienelement</translation>
+    </message>
+    <message>
+        <source>coolant below the room</source>
+        <translation>Kühlmittel unter Raumtemperatur</translation>
+    </message>
+    <message>
+        <source>coolant is switched on and off</source>
+        <translation>Kühlmittel wird ein- und ausgeschaltet</translation>
+    </message>
+    <message>
+        <source>coolant on</source>
+        <translation>Kühlmittel ein</translation>
+    </message>
+    <message>
+        <source>correlated noise</source>
+        <translation>korreliertes Rauschen</translation>
+    </message>
+    <message>
+        <source>correlation of the noise from state to state</source>
+        <translation>Korrelation des Rauschens von Zustand zu Zustand</translation>
+    </message>
+    <message>
+        <source>counted</source>
+        <translation>gezählt</translation>
+    </message>
+    <message>
+        <source>covariance of offset and gains</source>
+        <translation>Kovarianz von Konstante und Verstärkungen</translation>
+    </message>
+    <message>
+        <source>covariance of the two</source>
+        <translation>Kovarianz der beiden</translation>
+    </message>
+    <message>
+        <source>curvature across, over half the width</source>
+        <translation>Krümmung quer, über die halbe Breite</translation>
+    </message>
+    <message>
+        <source>cycle, scan: artefact</source>
+        <translation>Zyklus, Aufnahme: Prüfkörper</translation>
+    </message>
+    <message>
+        <source>cycle: number of touches that makes it complete</source>
+        <translation>Zyklus: Zahl der Antastungen, mit der er vollständig ist</translation>
+    </message>
+    <message>
+        <source>data item there</source>
+        <translation>Datenelement dort</translation>
+    </message>
+    <message>
+        <source>deviation</source>
+        <translation>Abweichung</translation>
+    </message>
+    <message>
+        <source>deviation for a gain of one; also EY, EZ and, in urad, EA, EB, EC</source>
+        <translation>Abweichung bei einer Verstärkung von eins; ebenso EY, EZ und, in urad, EA, EB, EC</translation>
+    </message>
+    <message>
+        <source>digit from the centre of its ellipse</source>
+        <translation>Ziffer vom Mittelpunkt ihrer Ellipse aus</translation>
+    </message>
+    <message>
+        <source>direction of approach</source>
+        <translation>Anfahrrichtung</translation>
+    </message>
+    <message>
+        <source>direction of its displacement</source>
+        <translation>Richtung seiner Verschiebung</translation>
+    </message>
+    <message>
+        <source>directions in which the inputs moved</source>
+        <translation>Richtungen, in denen sich die Eingänge bewegten</translation>
+    </message>
+    <message>
+        <source>directions of approach change</source>
+        <translation>Anfahrrichtungen wechseln</translation>
+    </message>
+    <message>
+        <source>displacement</source>
+        <translation>Verschiebung</translation>
+    </message>
+    <message>
+        <source>distance by which the probe triggers late</source>
+        <translation>Weg, um den der Taster zu spät auslöst</translation>
+    </message>
+    <message>
+        <source>distance from a wall before moving along it</source>
+        <translation>Abstand von einer Wand, bevor an ihr entlang gefahren wird</translation>
+    </message>
+    <message>
+        <source>distance from these that counts as known</source>
+        <translation>Abstand von diesen, der als bekannt gilt</translation>
+    </message>
+    <message>
+        <source>distance of the ellipses</source>
+        <translation>Abstand der Ellipsen</translation>
+    </message>
+    <message>
+        <source>distance of the profiles</source>
+        <translation>Abstand der Profile</translation>
+    </message>
+    <message>
+        <source>distance of these points</source>
+        <translation>Abstand dieser Punkte</translation>
+    </message>
+    <message>
+        <source>divisor</source>
+        <translation>Teiler</translation>
+    </message>
+    <message>
+        <source>divisor of the input</source>
+        <translation>Teiler des Eingangs</translation>
+    </message>
+    <message>
+        <source>does not run backwards</source>
+        <translation>läuft nicht rückwärts</translation>
+    </message>
+    <message>
+        <source>does not run backwards within a fiducial</source>
+        <translation>läuft innerhalb einer Messmarke nicht rückwärts</translation>
+    </message>
+    <message>
+        <source>does not run backwards within a point</source>
+        <translation>läuft innerhalb eines Punktes nicht rückwärts</translation>
+    </message>
+    <message>
+        <source>does not run backwards within an artefact</source>
+        <translation>läuft innerhalb eines Prüfkörpers nicht rückwärts</translation>
+    </message>
+    <message>
+        <source>drag: where it ends</source>
+        <translation>drag: wo es endet</translation>
+    </message>
+    <message>
+        <source>drift</source>
+        <translation>Drift</translation>
+    </message>
+    <message>
+        <source>drop of the temperature</source>
+        <translation>Abfall der Temperatur</translation>
+    </message>
+    <message>
+        <source>effect</source>
+        <translation>Effekt</translation>
+    </message>
+    <message>
+        <source>effects of the scenario</source>
+        <translation>Effekte des Szenarios</translation>
+    </message>
+    <message>
+        <source>effects of your own</source>
+        <translation>eigene Effekte</translation>
+    </message>
+    <message>
+        <source>effects that are special cases</source>
+        <translation>Effekte, die Sonderfälle sind</translation>
+    </message>
+    <message>
+        <source>effects that it can cause</source>
+        <translation>Effekte, die er verursachen kann</translation>
+    </message>
+    <message>
+        <source>effects that the simulation of the campaign knows</source>
+        <translation>Effekte, die die Simulation der Kampagne kennt</translation>
+    </message>
+    <message>
+        <source>effects to numbers</source>
+        <translation>Effekte zu Zahlen</translation>
+    </message>
+    <message>
+        <source>effects.json</source>
+        <translation>effects.json</translation>
+    </message>
+    <message>
+        <source>empty</source>
+        <translation>leer</translation>
+    </message>
+    <message>
+        <source>en</source>
+        <translation>en</translation>
+    </message>
+    <message>
+        <source>end of the touch</source>
+        <translation>Ende der Antastung</translation>
+    </message>
+    <message>
+        <source>ends of the travel</source>
+        <translation>Enden des Verfahrwegs</translation>
+    </message>
+    <message>
+        <source>errors of sensors that were found; written by Spindrift</source>
+        <translation>gefundene Fehler von Sensoren; von Spindrift geschrieben</translation>
+    </message>
+    <message>
+        <source>evaluate, fit, identify, discrepancy, command: campaigns</source>
+        <translation>evaluate, fit, identify, discrepancy, command: Kampagnen</translation>
+    </message>
+    <message>
+        <source>every_s instead</source>
+        <translation>stattdessen every_s</translation>
+    </message>
+    <message>
+        <source>exercise.json</source>
+        <translation>exercise.json</translation>
+    </message>
+    <message>
+        <source>expression in x, y, z, c, dirx, diry, dirz</source>
+        <translation>Ausdruck in x, y, z, c, dirx, diry, dirz</translation>
+    </message>
+    <message>
+        <source>factor by which uncertainties were found too small</source>
+        <translation>Faktor, um den Unsicherheiten als zu klein befunden wurden</translation>
+    </message>
+    <message>
+        <source>factor of conduction</source>
+        <translation>Faktor der Wärmeleitung</translation>
+    </message>
+    <message>
+        <source>factor of convection</source>
+        <translation>Faktor der Konvektion</translation>
+    </message>
+    <message>
+        <source>factor of its physical size</source>
+        <translation>Faktor seiner physikalischen Größe</translation>
+    </message>
+    <message>
+        <source>factor of the coefficients of expansion</source>
+        <translation>Faktor der Ausdehnungskoeffizienten</translation>
+    </message>
+    <message>
+        <source>factor of the heat capacity of spindle and head</source>
+        <translation>Faktor der Wärmekapazität von Spindel und Kopf</translation>
+    </message>
+    <message>
+        <source>factor of the heat capacity of the screws</source>
+        <translation>Faktor der Wärmekapazität der Kugelgewindetriebe</translation>
+    </message>
+    <message>
+        <source>factor of the heat capacity of the structure</source>
+        <translation>Faktor der Wärmekapazität der Struktur</translation>
+    </message>
+    <message>
+        <source>factor of the heat of nuts and screw bearings</source>
+        <translation>Faktor der Wärme von Muttern und Spindellagern der Kugelgewindetriebe</translation>
+    </message>
+    <message>
+        <source>factor of the heat of spindle bearings and motor</source>
+        <translation>Faktor der Wärme von Spindellagern und Motor</translation>
+    </message>
+    <message>
+        <source>factor of what motion adds to it</source>
+        <translation>Faktor dessen, was Bewegung dazu beiträgt</translation>
+    </message>
+    <message>
+        <source>false</source>
+        <translation>false</translation>
+    </message>
+    <message>
+        <source>fe.json</source>
+        <translation>fe.json</translation>
+    </message>
+    <message>
+        <source>feed of a touch</source>
+        <translation>Vorschub einer Antastung</translation>
+    </message>
+    <message>
+        <source>feed; also y, z</source>
+        <translation>Vorschub; ebenso y, z</translation>
+    </message>
+    <message>
+        <source>feeds</source>
+        <translation>Vorschübe</translation>
+    </message>
+    <message>
+        <source>fewer than states</source>
+        <translation>weniger als Zustände</translation>
+    </message>
+    <message>
+        <source>fiducial</source>
+        <translation>fiducial</translation>
+    </message>
+    <message>
+        <source>fiducials of the machine</source>
+        <translation>Messmarken der Maschine</translation>
+    </message>
+    <message>
+        <source>fiducials that are seen; times as for measurement</source>
+        <translation>Messmarken, die gesehen werden; Zeiten wie bei measurement</translation>
+    </message>
+    <message>
+        <source>file of displacements</source>
+        <translation>Datei mit Verschiebungen</translation>
+    </message>
+    <message>
+        <source>file, or an object</source>
+        <translation>Datei oder ein Objekt</translation>
+    </message>
+    <message>
+        <source>files of the folder</source>
+        <translation>Dateien des Ordners</translation>
+    </message>
+    <message>
+        <source>first and last</source>
+        <translation>erster und letzter</translation>
+    </message>
+    <message>
+        <source>first and last number, 10 ... 99</source>
+        <translation>erste und letzte Nummer, 10 ... 99</translation>
+    </message>
+    <message>
+        <source>first index, last index + 1</source>
+        <translation>erster Index, letzter Index + 1</translation>
+    </message>
+    <message>
+        <source>first state</source>
+        <translation>erster Zustand</translation>
+    </message>
+    <message>
+        <source>first-order time constant</source>
+        <translation>Zeitkonstante erster Ordnung</translation>
+    </message>
+    <message>
+        <source>first_state</source>
+        <translation>first_state</translation>
+    </message>
+    <message>
+        <source>fit</source>
+        <translation>fit</translation>
+    </message>
+    <message>
+        <source>folder it shares</source>
+        <translation>Ordner, den sie teilt</translation>
+    </message>
+    <message>
+        <source>folders</source>
+        <translation>Ordner</translation>
+    </message>
+    <message>
+        <source>format</source>
+        <translation>Format</translation>
+    </message>
+    <message>
+        <source>free running</source>
+        <translation>freilaufend</translation>
+    </message>
+    <message>
+        <source>from 0</source>
+        <translation>ab 0</translation>
+    </message>
+    <message>
+        <source>from 1</source>
+        <translation>ab 1</translation>
+    </message>
+    <message>
+        <source>from min to max</source>
+        <translation>von min bis max</translation>
+    </message>
+    <message>
+        <source>from the calibration</source>
+        <translation>aus der Kalibrierung</translation>
+    </message>
+    <message>
+        <source>from the line</source>
+        <translation>aus der Zeile</translation>
+    </message>
+    <message>
+        <source>from touch_interval_s</source>
+        <translation>aus touch_interval_s</translation>
+    </message>
+    <message>
+        <source>further doors at random times</source>
+        <translation>weitere Tore zu zufälligen Zeiten</translation>
+    </message>
+    <message>
+        <source>gain</source>
+        <translation>Verstärkung</translation>
+    </message>
+    <message>
+        <source>gains and time constants</source>
+        <translation>Verstärkungen und Zeitkonstanten</translation>
+    </message>
+    <message>
+        <source>genicam: exposure</source>
+        <translation>genicam: Belichtung</translation>
+    </message>
+    <message>
+        <source>genicam: gain</source>
+        <translation>genicam: Verstärkung</translation>
+    </message>
+    <message>
+        <source>genicam: part of the sensor</source>
+        <translation>genicam: Ausschnitt des Bildsensors</translation>
+    </message>
+    <message>
+        <source>genicam: trigger</source>
+        <translation>genicam: Auslöser</translation>
+    </message>
+    <message>
+        <source>grains of dust</source>
+        <translation>Staubkörner</translation>
+    </message>
+    <message>
+        <source>height</source>
+        <translation>Höhe</translation>
+    </message>
+    <message>
+        <source>height above everything</source>
+        <translation>Höhe über allem</translation>
+    </message>
+    <message>
+        <source>height by which the profiler is lifted between calibration and scan</source>
+        <translation>Höhe, um die der Profilsensor zwischen Kalibrierung und Aufnahme angehoben wird</translation>
+    </message>
+    <message>
+        <source>height of an image</source>
+        <translation>Höhe eines Bildes</translation>
+    </message>
+    <message>
+        <source>height of the foot of the column</source>
+        <translation>Höhe des Ständerfußes</translation>
+    </message>
+    <message>
+        <source>heights for the focus</source>
+        <translation>Höhen für den Fokus</translation>
+    </message>
+    <message>
+        <source>highest speed</source>
+        <translation>höchste Drehzahl</translation>
+    </message>
+    <message>
+        <source>hole bar: diameter of its holes</source>
+        <translation>Lochleiste: Durchmesser ihrer Bohrungen</translation>
+    </message>
+    <message>
+        <source>hole bar: holes H1, H2, ... along the bar</source>
+        <translation>Lochleiste: Bohrungen H1, H2, ... entlang der Leiste</translation>
+    </message>
+    <message>
+        <source>hole bar: its direction at c = 0</source>
+        <translation>Lochleiste: ihre Richtung bei c = 0</translation>
+    </message>
+    <message>
+        <source>hole bar: reference hole from the centre of C at c = 0</source>
+        <translation>Lochleiste: Bezugsbohrung, vom Zentrum von C bei c = 0 aus</translation>
+    </message>
+    <message>
+        <source>hole bar: the hole that places it</source>
+        <translation>Lochleiste: die Bohrung, die ihre Lage bestimmt</translation>
+    </message>
+    <message>
+        <source>hole or ball</source>
+        <translation>Bohrung oder Kugel</translation>
+    </message>
+    <message>
+        <source>host and port</source>
+        <translation>Rechner und Port</translation>
+    </message>
+    <message>
+        <source>how it follows</source>
+        <translation>wie er folgt</translation>
+    </message>
+    <message>
+        <source>how it follows its driver</source>
+        <translation>wie er seiner Antriebsgröße folgt</translation>
+    </message>
+    <message>
+        <source>how it goes on between rows</source>
+        <translation>wie es zwischen Zeilen weitergeht</translation>
+    </message>
+    <message>
+        <source>how it is called</source>
+        <translation>wie er heißt</translation>
+    </message>
+    <message>
+        <source>how it is run</source>
+        <translation>wie sie ausgeführt wird</translation>
+    </message>
+    <message>
+        <source>how it is spoken to</source>
+        <translation>wie mit ihr gesprochen wird</translation>
+    </message>
+    <message>
+        <source>how many of these</source>
+        <translation>wie viele davon</translation>
+    </message>
+    <message>
+        <source>how much is hidden</source>
+        <translation>wie viel verborgen ist</translation>
+    </message>
+    <message>
+        <source>how often a failed item is tried again</source>
+        <translation>wie oft ein misslungener Teil noch einmal versucht wird</translation>
+    </message>
+    <message>
+        <source>how they stood</source>
+        <translation>wie sie standen</translation>
+    </message>
+    <message>
+        <source>how well the value is known</source>
+        <translation>wie genau der Wert bekannt ist</translation>
+    </message>
+    <message>
+        <source>idle at the beginning</source>
+        <translation>Stillstand am Beginn</translation>
+    </message>
+    <message>
+        <source>ids</source>
+        <translation>Kennungen</translation>
+    </message>
+    <message>
+        <source>ids of the catalogue</source>
+        <translation>Kennungen des Katalogs</translation>
+    </message>
+    <message>
+        <source>image</source>
+        <translation>Bild</translation>
+    </message>
+    <message>
+        <source>image: commanded position</source>
+        <translation>Bild: Sollposition</translation>
+    </message>
+    <message>
+        <source>image: commanded position; scan: position of the carriage where it starts</source>
+        <translation>Bild: Sollposition; Aufnahme: Position des Schlittens an ihrem Beginn</translation>
+    </message>
+    <message>
+        <source>image: fiducial</source>
+        <translation>Bild: Messmarke</translation>
+    </message>
+    <message>
+        <source>image: number within the role</source>
+        <translation>Bild: Nummer innerhalb der Rolle</translation>
+    </message>
+    <message>
+        <source>image: rotation of the spindle</source>
+        <translation>Bild: Drehung der Spindel</translation>
+    </message>
+    <message>
+        <source>image: what it serves for</source>
+        <translation>Bild: wozu es dient</translation>
+    </message>
+    <message>
+        <source>in the line: cycle</source>
+        <translation>in der Zeile: Zyklus</translation>
+    </message>
+    <message>
+        <source>in the line: direction of approach</source>
+        <translation>in der Zeile: Anfahrrichtung</translation>
+    </message>
+    <message>
+        <source>in the line: hole or ball</source>
+        <translation>in der Zeile: Bohrung oder Kugel</translation>
+    </message>
+    <message>
+        <source>in the line: number within the feature</source>
+        <translation>in der Zeile: Nummer innerhalb des Elements</translation>
+    </message>
+    <message>
+        <source>in the line: position</source>
+        <translation>in der Zeile: Position</translation>
+    </message>
+    <message>
+        <source>in the line: rotation of the table</source>
+        <translation>in der Zeile: Drehung des Tisches</translation>
+    </message>
+    <message>
+        <source>in the line: time</source>
+        <translation>in der Zeile: Zeit</translation>
+    </message>
+    <message>
+        <source>items given out at once</source>
+        <translation>Teile, die auf einmal ausgegeben werden</translation>
+    </message>
+    <message>
+        <source>its correlation from row to row</source>
+        <translation>seine Korrelation von Zeile zu Zeile</translation>
+    </message>
+    <message>
+        <source>its correlation time</source>
+        <translation>seine Korrelationszeit</translation>
+    </message>
+    <message>
+        <source>its height</source>
+        <translation>ihre Höhe</translation>
+    </message>
+    <message>
+        <source>its other end</source>
+        <translation>sein anderes Ende</translation>
+    </message>
+    <message>
+        <source>its radius</source>
+        <translation>ihr Radius</translation>
+    </message>
+    <message>
+        <source>its rms in units of sigma</source>
+        <translation>sein Effektivwert in Einheiten von sigma</translation>
+    </message>
+    <message>
+        <source>its standard uncertainty</source>
+        <translation>dessen Standardunsicherheit</translation>
+    </message>
+    <message>
+        <source>its unit</source>
+        <translation>seine Einheit</translation>
+    </message>
+    <message>
+        <source>key instead</source>
+        <translation>stattdessen key</translation>
+    </message>
+    <message>
+        <source>key: what it typed</source>
+        <translation>key: was sie schrieb</translation>
+    </message>
+    <message>
+        <source>key: which one</source>
+        <translation>key: welche</translation>
+    </message>
+    <message>
+        <source>keys that were held</source>
+        <translation>Tasten, die gehalten wurden</translation>
+    </message>
+    <message>
+        <source>kind of control</source>
+        <translation>Art der Steuerung</translation>
+    </message>
+    <message>
+        <source>kind of drive</source>
+        <translation>Art des Antriebs</translation>
+    </message>
+    <message>
+        <source>kinematic chain from workpiece to tool; an apostrophe marks an axis that carries the workpiece</source>
+        <translation>kinematische Kette vom Werkstück zum Werkzeug; ein Apostroph kennzeichnet eine Achse, die das Werkstück trägt</translation>
+    </message>
+    <message>
+        <source>label</source>
+        <translation>Aufschrift</translation>
+    </message>
+    <message>
+        <source>lag of the second value of each input</source>
+        <translation>Verzögerung des zweiten Werts jedes Eingangs</translation>
+    </message>
+    <message>
+        <source>language of the window</source>
+        <translation>Sprache des Fensters</translation>
+    </message>
+    <message>
+        <source>largest change a second</source>
+        <translation>größte Änderung je Sekunde</translation>
+    </message>
+    <message>
+        <source>largest change at once</source>
+        <translation>größte Änderung auf einmal</translation>
+    </message>
+    <message>
+        <source>largest correction</source>
+        <translation>größte Korrektur</translation>
+    </message>
+    <message>
+        <source>largest relative error of its sizes</source>
+        <translation>größter relativer Fehler ihrer Größen</translation>
+    </message>
+    <message>
+        <source>left</source>
+        <translation>left</translation>
+    </message>
+    <message>
+        <source>length</source>
+        <translation>Länge</translation>
+    </message>
+    <message>
+        <source>length of the loop</source>
+        <translation>Länge des Kreises</translation>
+    </message>
+    <message>
+        <source>letters, digits, _, - and .</source>
+        <translation>Buchstaben, Ziffern, _, - und .</translation>
+    </message>
+    <message>
+        <source>line of a touch</source>
+        <translation>Zeile einer Antastung</translation>
+    </message>
+    <message>
+        <source>line that begins a cycle</source>
+        <translation>Zeile, mit der ein Zyklus beginnt</translation>
+    </message>
+    <message>
+        <source>linear</source>
+        <translation>linear</translation>
+    </message>
+    <message>
+        <source>linear axis</source>
+        <translation>Linearachse</translation>
+    </message>
+    <message>
+        <source>lists of points for 0 ... 9</source>
+        <translation>Listen von Punkten für 0 ... 9</translation>
+    </message>
+    <message>
+        <source>log.csv</source>
+        <translation>log.csv</translation>
+    </message>
+    <message>
+        <source>longest time of an item</source>
+        <translation>längste Zeit eines Teils</translation>
+    </message>
+    <message>
+        <source>longest wait for an answer</source>
+        <translation>längstes Warten auf eine Antwort</translation>
+    </message>
+    <message>
+        <source>look: name of the picture that is worth taking</source>
+        <translation>look: Name des Bildes, das es wert ist</translation>
+    </message>
+    <message>
+        <source>lower bound</source>
+        <translation>untere Grenze</translation>
+    </message>
+    <message>
+        <source>machine.json</source>
+        <translation>machine.json</translation>
+    </message>
+    <message>
+        <source>made up</source>
+        <translation>erfunden</translation>
+    </message>
+    <message>
+        <source>mean (temperatures), mean_absolute (feeds), last</source>
+        <translation>mean (Temperaturen), mean_absolute (Vorschübe), last</translation>
+    </message>
+    <message>
+        <source>mean absolute feed of X; also feed_y_mm_min, feed_z_mm_min</source>
+        <translation>mittlerer Betrag des Vorschubs von X; ebenso feed_y_mm_min, feed_z_mm_min</translation>
+    </message>
+    <message>
+        <source>mean in training</source>
+        <translation>Mittel im Training</translation>
+    </message>
+    <message>
+        <source>mean of the room</source>
+        <translation>Mittel des Raumes</translation>
+    </message>
+    <message>
+        <source>mean over each increment</source>
+        <translation>Mittel über jedes Inkrement</translation>
+    </message>
+    <message>
+        <source>mean time of a speed</source>
+        <translation>mittlere Dauer einer Drehzahl</translation>
+    </message>
+    <message>
+        <source>measuring cycle</source>
+        <translation>Messzyklus</translation>
+    </message>
+    <message>
+        <source>measuring point</source>
+        <translation>Messpunkt</translation>
+    </message>
+    <message>
+        <source>mesh with node sets</source>
+        <translation>Netz mit Knotenmengen</translation>
+    </message>
+    <message>
+        <source>method by which it was identified</source>
+        <translation>Verfahren, mit dem es identifiziert wurde</translation>
+    </message>
+    <message>
+        <source>microscope</source>
+        <translation>microscope</translation>
+    </message>
+    <message>
+        <source>middle of the image</source>
+        <translation>Bildmitte</translation>
+    </message>
+    <message>
+        <source>modbus over a serial line: stop bits</source>
+        <translation>modbus über eine serielle Leitung: Stoppbits</translation>
+    </message>
+    <message>
+        <source>modbus, text over a serial line: parity</source>
+        <translation>modbus, text über eine serielle Leitung: Parität</translation>
+    </message>
+    <message>
+        <source>modbus, text over a serial line: speed</source>
+        <translation>modbus, text über eine serielle Leitung: Geschwindigkeit</translation>
+    </message>
+    <message>
+        <source>modbus: unit</source>
+        <translation>modbus: Einheit</translation>
+    </message>
+    <message>
+        <source>model.json</source>
+        <translation>model.json</translation>
+    </message>
+    <message>
+        <source>mounting angle about X</source>
+        <translation>Einbauwinkel um X</translation>
+    </message>
+    <message>
+        <source>mounting angle about Y</source>
+        <translation>Einbauwinkel um Y</translation>
+    </message>
+    <message>
+        <source>mounting angle about Z</source>
+        <translation>Einbauwinkel um Z</translation>
+    </message>
+    <message>
+        <source>mqtt, linuxcnc: file that holds the password</source>
+        <translation>mqtt, linuxcnc: Datei mit dem Kennwort</translation>
+    </message>
+    <message>
+        <source>mqtt, linuxcnc: variable of the environment that holds the password</source>
+        <translation>mqtt, linuxcnc: Umgebungsvariable mit dem Kennwort</translation>
+    </message>
+    <message>
+        <source>mqtt: Sparkplug nodes are asked for all their values</source>
+        <translation>mqtt: Sparkplug-Knoten werden nach allen ihren Werten gefragt</translation>
+    </message>
+    <message>
+        <source>mqtt: certificate of the authority</source>
+        <translation>mqtt: Zertifikat der Zertifizierungsstelle</translation>
+    </message>
+    <message>
+        <source>mqtt: name of this client</source>
+        <translation>mqtt: Name dieses Clients</translation>
+    </message>
+    <message>
+        <source>mqtt: text told then</source>
+        <translation>mqtt: Text, der dann gemeldet wird</translation>
+    </message>
+    <message>
+        <source>mqtt: topic told when the connection breaks</source>
+        <translation>mqtt: Thema, das beim Abbruch der Verbindung gemeldet wird</translation>
+    </message>
+    <message>
+        <source>mqtt: user</source>
+        <translation>mqtt: Benutzer</translation>
+    </message>
+    <message>
+        <source>mtconnect, modbus, linuxcnc: time between questions</source>
+        <translation>mtconnect, modbus, linuxcnc: Zeit zwischen Abfragen</translation>
+    </message>
+    <message>
+        <source>mtconnect: longest silence of the agent</source>
+        <translation>mtconnect: längstes Schweigen des Agenten</translation>
+    </message>
+    <message>
+        <source>name of the array in a VTK file</source>
+        <translation>Name des Feldes in einer VTK-Datei</translation>
+    </message>
+    <message>
+        <source>name of the batch</source>
+        <translation>Name des Stapels</translation>
+    </message>
+    <message>
+        <source>name of the campaign</source>
+        <translation>Name der Kampagne</translation>
+    </message>
+    <message>
+        <source>name of the instrument</source>
+        <translation>Name des Messgeräts</translation>
+    </message>
+    <message>
+        <source>name of the machine</source>
+        <translation>Name der Maschine</translation>
+    </message>
+    <message>
+        <source>named</source>
+        <translation>named</translation>
+    </message>
+    <message>
+        <source>names of states</source>
+        <translation>Namen von Zuständen</translation>
+    </message>
+    <message>
+        <source>names of two parameters</source>
+        <translation>Namen zweier Parameter</translation>
+    </message>
+    <message>
+        <source>no simulation</source>
+        <translation>keine Simulation</translation>
+    </message>
+    <message>
+        <source>no simulator</source>
+        <translation>kein Simulator</translation>
+    </message>
+    <message>
+        <source>no such lines</source>
+        <translation>keine solchen Zeilen</translation>
+    </message>
+    <message>
+        <source>nodes</source>
+        <translation>Knoten</translation>
+    </message>
+    <message>
+        <source>nodes by the name of their set</source>
+        <translation>Knoten nach dem Namen ihrer Menge</translation>
+    </message>
+    <message>
+        <source>nodes by their numbers</source>
+        <translation>Knoten nach ihren Nummern</translation>
+    </message>
+    <message>
+        <source>nodes next to a place</source>
+        <translation>Knoten nahe einem Ort</translation>
+    </message>
+    <message>
+        <source>nodes of the table</source>
+        <translation>Knoten des Tisches</translation>
+    </message>
+    <message>
+        <source>nodes of the tool</source>
+        <translation>Knoten des Werkzeugs</translation>
+    </message>
+    <message>
+        <source>nodes or nearest_to_mm instead</source>
+        <translation>stattdessen nodes oder nearest_to_mm</translation>
+    </message>
+    <message>
+        <source>noise</source>
+        <translation>Rauschen</translation>
+    </message>
+    <message>
+        <source>none</source>
+        <translation>keine</translation>
+    </message>
+    <message>
+        <source>not calibrated</source>
+        <translation>nicht kalibriert</translation>
+    </message>
+    <message>
+        <source>not known</source>
+        <translation>nicht bekannt</translation>
+    </message>
+    <message>
+        <source>number for other words</source>
+        <translation>Zahl für andere Wörter</translation>
+    </message>
+    <message>
+        <source>number of cycles; times as for measurement</source>
+        <translation>Zahl der Zyklen; Zeiten wie bei measurement</translation>
+    </message>
+    <message>
+        <source>number of states</source>
+        <translation>Zahl der Zustände</translation>
+    </message>
+    <message>
+        <source>number of the exercise</source>
+        <translation>Nummer der Übung</translation>
+    </message>
+    <message>
+        <source>number of the first column</source>
+        <translation>Nummer der ersten Spalte</translation>
+    </message>
+    <message>
+        <source>number of the first row</source>
+        <translation>Nummer der ersten Zeile</translation>
+    </message>
+    <message>
+        <source>number of the input</source>
+        <translation>Nummer des Eingangs</translation>
+    </message>
+    <message>
+        <source>number of the node</source>
+        <translation>Nummer des Knotens</translation>
+    </message>
+    <message>
+        <source>number within the feature</source>
+        <translation>Nummer innerhalb des Elements</translation>
+    </message>
+    <message>
+        <source>number within the role</source>
+        <translation>Nummer innerhalb der Rolle</translation>
+    </message>
+    <message>
+        <source>numbers have a decimal comma</source>
+        <translation>Zahlen haben ein Dezimalkomma</translation>
+    </message>
+    <message>
+        <source>object, or a file beside the scenario</source>
+        <translation>Objekt oder eine Datei neben dem Szenario</translation>
+    </message>
+    <message>
+        <source>observations.cov.csv</source>
+        <translation>observations.cov.csv</translation>
+    </message>
+    <message>
+        <source>observations.csv</source>
+        <translation>observations.csv</translation>
+    </message>
+    <message>
+        <source>of the catalogue or of effects.json</source>
+        <translation>des Katalogs oder von effects.json</translation>
+    </message>
+    <message>
+        <source>of the fit</source>
+        <translation>der Anpassung</translation>
+    </message>
+    <message>
+        <source>offset</source>
+        <translation>Versatz</translation>
+    </message>
+    <message>
+        <source>one character</source>
+        <translation>ein Zeichen</translation>
+    </message>
+    <message>
+        <source>one end of the crossbeam</source>
+        <translation>ein Ende des Querbalkens</translation>
+    </message>
+    <message>
+        <source>one phrase</source>
+        <translation>wenige Worte</translation>
+    </message>
+    <message>
+        <source>one sentence</source>
+        <translation>ein Satz</translation>
+    </message>
+    <message>
+        <source>only its owner can read it</source>
+        <translation>nur für ihren Besitzer lesbar</translation>
+    </message>
+    <message>
+        <source>orientations of the spindle</source>
+        <translation>Stellungen der Spindel</translation>
+    </message>
+    <message>
+        <source>origin of the slide to the tool frame</source>
+        <translation>Ursprung des Schlittens zum Werkzeugsystem</translation>
+    </message>
+    <message>
+        <source>other options, such as `state`, `points`, `output`, `inputs`, `train`, `test`, `max_effects`</source>
+        <translation>weitere Optionen, wie `state`, `points`, `output`, `inputs`, `train`, `test`, `max_effects`</translation>
+    </message>
+    <message>
+        <source>other than 0</source>
+        <translation>anders als 0</translation>
+    </message>
+    <message>
+        <source>other than from_mm</source>
+        <translation>anders als from_mm</translation>
+    </message>
+    <message>
+        <source>parameter</source>
+        <translation>Parameter</translation>
+    </message>
+    <message>
+        <source>part of the curvature that grows along Y</source>
+        <translation>Teil der Krümmung, der entlang Y wächst</translation>
+    </message>
+    <message>
+        <source>part of the readings that are missing</source>
+        <translation>Teil der Messwerte, die fehlen</translation>
+    </message>
+    <message>
+        <source>part of the readings that are off</source>
+        <translation>Teil der Messwerte, die daneben liegen</translation>
+    </message>
+    <message>
+        <source>part of the rows that are missing</source>
+        <translation>Teil der Zeilen, die fehlen</translation>
+    </message>
+    <message>
+        <source>part of the rows without a value</source>
+        <translation>Teil der Zeilen ohne Wert</translation>
+    </message>
+    <message>
+        <source>part of the travel that is used</source>
+        <translation>Teil des Verfahrwegs, der benutzt wird</translation>
+    </message>
+    <message>
+        <source>part of the travel that is used; also y, z</source>
+        <translation>Teil des Verfahrwegs, der benutzt wird; ebenso y, z</translation>
+    </message>
+    <message>
+        <source>parts of the travel</source>
+        <translation>Teile des Verfahrwegs</translation>
+    </message>
+    <message>
+        <source>pattern.json</source>
+        <translation>pattern.json</translation>
+    </message>
+    <message>
+        <source>patterns such as `T1={column} T2={bed}`</source>
+        <translation>Muster wie `T1={column} T2={bed}`</translation>
+    </message>
+    <message>
+        <source>phase of the day</source>
+        <translation>Phase des Tages</translation>
+    </message>
+    <message>
+        <source>pitch of the screw</source>
+        <translation>Steigung der Spindel</translation>
+    </message>
+    <message>
+        <source>place along Y where it is held</source>
+        <translation>Stelle entlang Y, an der sie gehalten wird</translation>
+    </message>
+    <message>
+        <source>place before the touch</source>
+        <translation>Ort vor der Antastung</translation>
+    </message>
+    <message>
+        <source>place in MCF</source>
+        <translation>Ort im MCF</translation>
+    </message>
+    <message>
+        <source>place of a bump</source>
+        <translation>Ort einer Erhebung</translation>
+    </message>
+    <message>
+        <source>place of the work; also y, z</source>
+        <translation>Ort der Arbeit; ebenso y, z</translation>
+    </message>
+    <message>
+        <source>place to which the displacement is carried</source>
+        <translation>Ort, auf den die Verschiebung übertragen wird</translation>
+    </message>
+    <message>
+        <source>place where the deviation holds</source>
+        <translation>Ort, an dem die Abweichung gilt</translation>
+    </message>
+    <message>
+        <source>place, as parts of width and height</source>
+        <translation>Stelle, als Teile von Breite und Höhe</translation>
+    </message>
+    <message>
+        <source>place; between places it is interpolated</source>
+        <translation>Ort; zwischen Orten wird interpoliert</translation>
+    </message>
+    <message>
+        <source>places in MCF from places in the mesh</source>
+        <translation>Orte im MCF aus Orten im Netz</translation>
+    </message>
+    <message>
+        <source>places of the work</source>
+        <translation>Orte der Arbeit</translation>
+    </message>
+    <message>
+        <source>plan.json</source>
+        <translation>plan.json</translation>
+    </message>
+    <message>
+        <source>point cloud</source>
+        <translation>Punktwolke</translation>
+    </message>
+    <message>
+        <source>point instead</source>
+        <translation>stattdessen point</translation>
+    </message>
+    <message>
+        <source>point of the machine</source>
+        <translation>Punkt der Maschine</translation>
+    </message>
+    <message>
+        <source>point of the machine that is scanned</source>
+        <translation>Punkt der Maschine, der aufgenommen wird</translation>
+    </message>
+    <message>
+        <source>points instead</source>
+        <translation>stattdessen points</translation>
+    </message>
+    <message>
+        <source>points of a profile</source>
+        <translation>Punkte eines Profils</translation>
+    </message>
+    <message>
+        <source>points of the machine</source>
+        <translation>Punkte der Maschine</translation>
+    </message>
+    <message>
+        <source>points that are measured</source>
+        <translation>Punkte, die gemessen werden</translation>
+    </message>
+    <message>
+        <source>position of X; also pos_y_mm, pos_z_mm</source>
+        <translation>Position von X; ebenso pos_y_mm, pos_z_mm</translation>
+    </message>
+    <message>
+        <source>position of the carriage where the scan starts</source>
+        <translation>Position des Schlittens am Beginn der Aufnahme</translation>
+    </message>
+    <message>
+        <source>position of the fixed bearing, from which the screw expands</source>
+        <translation>Position des Festlagers, von dem aus sich die Spindel dehnt</translation>
+    </message>
+    <message>
+        <source>position of the stylus centre when the probe triggered</source>
+        <translation>Position des Tastermittelpunkts beim Auslösen</translation>
+    </message>
+    <message>
+        <source>power of the input</source>
+        <translation>Exponent des Eingangs</translation>
+    </message>
+    <message>
+        <source>power, after the division</source>
+        <translation>Exponent, nach der Teilung</translation>
+    </message>
+    <message>
+        <source>predicted deviation</source>
+        <translation>vorhergesagte Abweichung</translation>
+    </message>
+    <message>
+        <source>profiler in the tool frame</source>
+        <translation>Profilsensor im Werkzeugsystem</translation>
+    </message>
+    <message>
+        <source>program and arguments</source>
+        <translation>Programm und Argumente</translation>
+    </message>
+    <message>
+        <source>programs with arguments</source>
+        <translation>Programme mit Argumenten</translation>
+    </message>
+    <message>
+        <source>quality of the images</source>
+        <translation>Qualität der Bilder</translation>
+    </message>
+    <message>
+        <source>radius of its tip</source>
+        <translation>Radius seiner Spitze</translation>
+    </message>
+    <message>
+        <source>radius of the filled circles</source>
+        <translation>Radius der gefüllten Kreise</translation>
+    </message>
+    <message>
+        <source>ramp</source>
+        <translation>Rampe</translation>
+    </message>
+    <message>
+        <source>random seed</source>
+        <translation>Startwert des Zufalls</translation>
+    </message>
+    <message>
+        <source>range in training</source>
+        <translation>Bereich im Training</translation>
+    </message>
+    <message>
+        <source>range of the test</source>
+        <translation>Testbereich</translation>
+    </message>
+    <message>
+        <source>range that was learned from</source>
+        <translation>Bereich, aus dem gelernt wurde</translation>
+    </message>
+    <message>
+        <source>reference temperature of absolute campaigns</source>
+        <translation>Bezugstemperatur absoluter Kampagnen</translation>
+    </message>
+    <message>
+        <source>relative error of single sizes</source>
+        <translation>relativer Fehler einzelner Größen</translation>
+    </message>
+    <message>
+        <source>relative standard uncertainty of the simulation, for each component</source>
+        <translation>relative Standardunsicherheit der Simulation, für jede Komponente</translation>
+    </message>
+    <message>
+        <source>repeats its first value</source>
+        <translation>wiederholt seinen ersten Wert</translation>
+    </message>
+    <message>
+        <source>required</source>
+        <translation>erforderlich</translation>
+    </message>
+    <message>
+        <source>resolution</source>
+        <translation>Auflösung</translation>
+    </message>
+    <message>
+        <source>rigid</source>
+        <translation>rigid</translation>
+    </message>
+    <message>
+        <source>rising</source>
+        <translation>steigend</translation>
+    </message>
+    <message>
+        <source>rising for each parameter, point and component</source>
+        <translation>steigend für jeden Parameter, Punkt und jede Komponente</translation>
+    </message>
+    <message>
+        <source>rising, from 0</source>
+        <translation>steigend, ab 0</translation>
+    </message>
+    <message>
+        <source>rms in the test</source>
+        <translation>Effektivwert im Test</translation>
+    </message>
+    <message>
+        <source>rotary axis</source>
+        <translation>Drehachse</translation>
+    </message>
+    <message>
+        <source>rotation of the camera</source>
+        <translation>Drehung der Kamera</translation>
+    </message>
+    <message>
+        <source>rotation of the spindle with the camera about +Z</source>
+        <translation>Drehung der Spindel mit der Kamera um +Z</translation>
+    </message>
+    <message>
+        <source>rotation of the surface</source>
+        <translation>Drehung der Fläche</translation>
+    </message>
+    <message>
+        <source>rotation of the table</source>
+        <translation>Drehung des Tisches</translation>
+    </message>
+    <message>
+        <source>row and column from 0</source>
+        <translation>Zeile und Spalte ab 0</translation>
+    </message>
+    <message>
+        <source>row by row</source>
+        <translation>zeilenweise</translation>
+    </message>
+    <message>
+        <source>row of observations.csv</source>
+        <translation>Zeile von observations.csv</translation>
+    </message>
+    <message>
+        <source>rows of circles</source>
+        <translation>Zeilen von Kreisen</translation>
+    </message>
+    <message>
+        <source>rows of ellipses</source>
+        <translation>Zeilen von Ellipsen</translation>
+    </message>
+    <message>
+        <source>rows of two numbers an input</source>
+        <translation>Zeilen mit zwei Zahlen je Eingang</translation>
+    </message>
+    <message>
+        <source>running</source>
+        <translation>fortlaufend</translation>
+    </message>
+    <message>
+        <source>sample data that it begins with</source>
+        <translation>Beispieldaten, mit denen es beginnt</translation>
+    </message>
+    <message>
+        <source>sampling period of the identification</source>
+        <translation>Abtastzeit der Identifikation</translation>
+    </message>
+    <message>
+        <source>scan of the calibration pocket</source>
+        <translation>Aufnahme der Kalibriertasche</translation>
+    </message>
+    <message>
+        <source>scatter of the tool, X and Y</source>
+        <translation>Streuung des Werkzeugs, X und Y</translation>
+    </message>
+    <message>
+        <source>scatter of the tool, Z</source>
+        <translation>Streuung des Werkzeugs, Z</translation>
+    </message>
+    <message>
+        <source>scenario that the machine is compared with</source>
+        <translation>Szenario, mit dem die Maschine verglichen wird</translation>
+    </message>
+    <message>
+        <source>scenario: a scenario of the virtual machine</source>
+        <translation>scenario: ein Szenario der virtuellen Maschine</translation>
+    </message>
+    <message>
+        <source>see scale</source>
+        <translation>siehe scale</translation>
+    </message>
+    <message>
+        <source>seeds instead</source>
+        <translation>stattdessen seeds</translation>
+    </message>
+    <message>
+        <source>semi-axis along X</source>
+        <translation>Halbachse entlang X</translation>
+    </message>
+    <message>
+        <source>semi-axis along Y</source>
+        <translation>Halbachse entlang Y</translation>
+    </message>
+    <message>
+        <source>sensitivities: see below</source>
+        <translation>sensitivities: siehe unten</translation>
+    </message>
+    <message>
+        <source>sensitivities: values that the table holds for; written by Spindrift</source>
+        <translation>sensitivities: Werte, für die die Tabelle gilt; von Spindrift geschrieben</translation>
+    </message>
+    <message>
+        <source>set or nearest_to_mm instead</source>
+        <translation>stattdessen set oder nearest_to_mm</translation>
+    </message>
+    <message>
+        <source>set or nodes instead</source>
+        <translation>stattdessen set oder nodes</translation>
+    </message>
+    <message>
+        <source>shortest time between cycles</source>
+        <translation>kürzeste Zeit zwischen Zyklen</translation>
+    </message>
+    <message>
+        <source>sign of the gain; 0: either</source>
+        <translation>Vorzeichen der Verstärkung; 0: beide</translation>
+    </message>
+    <message>
+        <source>sign that the control gives to the rotary axis</source>
+        <translation>Vorzeichen, das die Steuerung der Drehachse gibt</translation>
+    </message>
+    <message>
+        <source>silence after which an item is given to another worker</source>
+        <translation>Schweigen, nach dem ein Teil einem anderen Arbeiter gegeben wird</translation>
+    </message>
+    <message>
+        <source>simulate, hidden_effect, command: random seeds</source>
+        <translation>simulate, hidden_effect, command: Startwerte des Zufalls</translation>
+    </message>
+    <message>
+        <source>simulate: scenario</source>
+        <translation>simulate: Szenario</translation>
+    </message>
+    <message>
+        <source>simulate: where campaigns go</source>
+        <translation>simulate: wohin Kampagnen kommen</translation>
+    </message>
+    <message>
+        <source>simulation.csv</source>
+        <translation>simulation.csv</translation>
+    </message>
+    <message>
+        <source>simulation.csv to which the effects are added</source>
+        <translation>simulation.csv, zu der die Effekte addiert werden</translation>
+    </message>
+    <message>
+        <source>simulator.json</source>
+        <translation>simulator.json</translation>
+    </message>
+    <message>
+        <source>size instead</source>
+        <translation>stattdessen size</translation>
+    </message>
+    <message>
+        <source>size of a pixel on the fiducial</source>
+        <translation>Größe eines Bildpunkts auf der Messmarke</translation>
+    </message>
+    <message>
+        <source>size of the window</source>
+        <translation>Größe des Fensters</translation>
+    </message>
+    <message>
+        <source>smallest step; without it nothing is judged against the resolution</source>
+        <translation>kleinster Schritt; ohne ihn wird nichts gegen die Auflösung beurteilt</translation>
+    </message>
+    <message>
+        <source>source</source>
+        <translation>Quelle</translation>
+    </message>
+    <message>
+        <source>speed of the rotary table</source>
+        <translation>Drehzahl des Rundtisches</translation>
+    </message>
+    <message>
+        <source>speeds of the rotary table</source>
+        <translation>Drehzahlen des Rundtisches</translation>
+    </message>
+    <message>
+        <source>spindle minus column, X and Y</source>
+        <translation>Spindel minus Ständer, X und Y</translation>
+    </message>
+    <message>
+        <source>spindle nose minus reference point</source>
+        <translation>Spindelnase minus Bezugspunkt</translation>
+    </message>
+    <message>
+        <source>spindle speed</source>
+        <translation>Spindeldrehzahl</translation>
+    </message>
+    <message>
+        <source>spindle speeds</source>
+        <translation>Spindeldrehzahlen</translation>
+    </message>
+    <message>
+        <source>square matrix</source>
+        <translation>quadratische Matrix</translation>
+    </message>
+    <message>
+        <source>standard deviation of a touch</source>
+        <translation>Standardabweichung einer Antastung</translation>
+    </message>
+    <message>
+        <source>standard deviation of displacements</source>
+        <translation>Standardabweichung von Verschiebungen</translation>
+    </message>
+    <message>
+        <source>standard deviation of rotations</source>
+        <translation>Standardabweichung von Drehungen</translation>
+    </message>
+    <message>
+        <source>standard deviation of slow changes</source>
+        <translation>Standardabweichung langsamer Änderungen</translation>
+    </message>
+    <message>
+        <source>standard deviation of the noise</source>
+        <translation>Standardabweichung des Rauschens</translation>
+    </message>
+    <message>
+        <source>standard uncertainty</source>
+        <translation>Standardunsicherheit</translation>
+    </message>
+    <message>
+        <source>standard uncertainty of a calibrated position</source>
+        <translation>Standardunsicherheit einer kalibrierten Position</translation>
+    </message>
+    <message>
+        <source>standard uncertainty of a touch</source>
+        <translation>Standardunsicherheit einer Antastung</translation>
+    </message>
+    <message>
+        <source>standard uncertainty of its temperature</source>
+        <translation>Standardunsicherheit seiner Temperatur</translation>
+    </message>
+    <message>
+        <source>start</source>
+        <translation>Beginn</translation>
+    </message>
+    <message>
+        <source>states for validation</source>
+        <translation>Zustände zur Validierung</translation>
+    </message>
+    <message>
+        <source>steps along the axes</source>
+        <translation>Schritte entlang der Achsen</translation>
+    </message>
+    <message>
+        <source>strokes of each digit</source>
+        <translation>Striche jeder Ziffer</translation>
+    </message>
+    <message>
+        <source>stylus</source>
+        <translation>Tastereinsatz</translation>
+    </message>
+    <message>
+        <source>stylus of the machine</source>
+        <translation>Tastereinsatz der Maschine</translation>
+    </message>
+    <message>
+        <source>stylus, where the line does not name it</source>
+        <translation>Tastereinsatz, wo ihn die Zeile nicht nennt</translation>
+    </message>
+    <message>
+        <source>stylus_centre</source>
+        <translation>stylus_centre</translation>
+    </message>
+    <message>
+        <source>such as CELSIUS, MILLIMETER</source>
+        <translation>wie CELSIUS, MILLIMETER</translation>
+    </message>
+    <message>
+        <source>such as M1</source>
+        <translation>wie M1</translation>
+    </message>
+    <message>
+        <source>such as `ball_screw`</source>
+        <translation>wie `ball_screw`</translation>
+    </message>
+    <message>
+        <source>such as `column front`, `front bearing`, `room`</source>
+        <translation>wie `column front`, `front bearing`, `room`</translation>
+    </message>
+    <message>
+        <source>such as `spindle_housing`</source>
+        <translation>wie `spindle_housing`</translation>
+    </message>
+    <message>
+        <source>such as `spindle_housing`, `column_front`, `ambient`</source>
+        <translation>wie `spindle_housing`, `column_front`, `ambient`</translation>
+    </message>
+    <message>
+        <source>surface that is scanned</source>
+        <translation>Fläche, die aufgenommen wird</translation>
+    </message>
+    <message>
+        <source>tab or entry of a menu</source>
+        <translation>Reiter oder Eintrag eines Menüs</translation>
+    </message>
+    <message>
+        <source>table `{{table:NAME}}` of a column</source>
+        <translation>Tabelle `{{table:NAME}}` einer Spalte</translation>
+    </message>
+    <message>
+        <source>table that is 1 between two times</source>
+        <translation>Tabelle, die zwischen zwei Zeiten 1 ist</translation>
+    </message>
+    <message>
+        <source>temperature of a sensor</source>
+        <translation>Temperatur eines Sensors</translation>
+    </message>
+    <message>
+        <source>temperature of the artefact where the log has none</source>
+        <translation>Temperatur des Prüfkörpers, wo das Protokoll keine hat</translation>
+    </message>
+    <message>
+        <source>temperatures that are recorded</source>
+        <translation>Temperaturen, die aufgezeichnet werden</translation>
+    </message>
+    <message>
+        <source>temperatures: which body it stands for</source>
+        <translation>Temperaturen: für welchen Körper sie steht</translation>
+    </message>
+    <message>
+        <source>text instead</source>
+        <translation>stattdessen text</translation>
+    </message>
+    <message>
+        <source>text over a serial line: data bits</source>
+        <translation>text über eine serielle Leitung: Datenbits</translation>
+    </message>
+    <message>
+        <source>text: lines that hold values</source>
+        <translation>text: Zeilen, die Werte enthalten</translation>
+    </message>
+    <message>
+        <source>text: numbers have a decimal comma</source>
+        <translation>text: Zahlen haben ein Dezimalkomma</translation>
+    </message>
+    <message>
+        <source>text: where all that comes is kept</source>
+        <translation>text: wo alles aufbewahrt wird, was kommt</translation>
+    </message>
+    <message>
+        <source>that of displacements</source>
+        <translation>die der Verschiebungen</translation>
+    </message>
+    <message>
+        <source>that of the camera</source>
+        <translation>die der Kamera</translation>
+    </message>
+    <message>
+        <source>that of the column</source>
+        <translation>die der Spalte</translation>
+    </message>
+    <message>
+        <source>that of the last cycle_line</source>
+        <translation>der der letzten cycle_line</translation>
+    </message>
+    <message>
+        <source>that of the system</source>
+        <translation>das des Systems</translation>
+    </message>
+    <message>
+        <source>the catalogue alone</source>
+        <translation>der Katalog allein</translation>
+    </message>
+    <message>
+        <source>the control was compensating</source>
+        <translation>die Steuerung kompensierte</translation>
+    </message>
+    <message>
+        <source>the id</source>
+        <translation>die Kennung</translation>
+    </message>
+    <message>
+        <source>the inputs share one time constant</source>
+        <translation>die Eingänge teilen eine Zeitkonstante</translation>
+    </message>
+    <message>
+        <source>the instrument is off before</source>
+        <translation>davor ist das Messgerät aus</translation>
+    </message>
+    <message>
+        <source>the instrument is on</source>
+        <translation>das Messgerät ist an</translation>
+    </message>
+    <message>
+        <source>the instrument is switched on</source>
+        <translation>das Messgerät ist eingeschaltet</translation>
+    </message>
+    <message>
+        <source>the last states for validation</source>
+        <translation>die letzten Zustände zur Validierung</translation>
+    </message>
+    <message>
+        <source>the line needs it</source>
+        <translation>die Zeile braucht es</translation>
+    </message>
+    <message>
+        <source>the log</source>
+        <translation>das Protokoll</translation>
+    </message>
+    <message>
+        <source>the main window</source>
+        <translation>das Hauptfenster</translation>
+    </message>
+    <message>
+        <source>the model within another document</source>
+        <translation>das Modell in einem anderen Dokument</translation>
+    </message>
+    <message>
+        <source>the name</source>
+        <translation>der Name</translation>
+    </message>
+    <message>
+        <source>the place of the work changes</source>
+        <translation>der Ort der Arbeit wechselt</translation>
+    </message>
+    <message>
+        <source>the same</source>
+        <translation>dasselbe</translation>
+    </message>
+    <message>
+        <source>the same frame</source>
+        <translation>dasselbe System</translation>
+    </message>
+    <message>
+        <source>the simulation to compare with</source>
+        <translation>die Simulation, mit der verglichen wird</translation>
+    </message>
+    <message>
+        <source>the standard artwork</source>
+        <translation>die Standardvorlage</translation>
+    </message>
+    <message>
+        <source>the usual name</source>
+        <translation>der übliche Name</translation>
+    </message>
+    <message>
+        <source>the usual one</source>
+        <translation>die übliche</translation>
+    </message>
+    <message>
+        <source>their correlation time</source>
+        <translation>ihre Korrelationszeit</translation>
+    </message>
+    <message>
+        <source>their standard uncertainties</source>
+        <translation>ihre Standardunsicherheiten</translation>
+    </message>
+    <message>
+        <source>thermal state</source>
+        <translation>thermischer Zustand</translation>
+    </message>
+    <message>
+        <source>thermal state or cycle</source>
+        <translation>thermischer Zustand oder Zyklus</translation>
+    </message>
+    <message>
+        <source>three numbers</source>
+        <translation>drei Zahlen</translation>
+    </message>
+    <message>
+        <source>three numbers, along the axis</source>
+        <translation>drei Zahlen, entlang der Achse</translation>
+    </message>
+    <message>
+        <source>time</source>
+        <translation>Zeit</translation>
+    </message>
+    <message>
+        <source>time at a point</source>
+        <translation>Zeit an einem Punkt</translation>
+    </message>
+    <message>
+        <source>time at which `time_s` is 0</source>
+        <translation>Zeitpunkt, zu dem `time_s` 0 ist</translation>
+    </message>
+    <message>
+        <source>time between cycles</source>
+        <translation>Zeit zwischen Zyklen</translation>
+    </message>
+    <message>
+        <source>time between cycles that are printed without a time</source>
+        <translation>Zeit zwischen Zyklen, die ohne Zeit gedruckt werden</translation>
+    </message>
+    <message>
+        <source>time between identifications</source>
+        <translation>Zeit zwischen Identifikationen</translation>
+    </message>
+    <message>
+        <source>time between images</source>
+        <translation>Zeit zwischen Bildern</translation>
+    </message>
+    <message>
+        <source>time between rows</source>
+        <translation>Zeit zwischen Zeilen</translation>
+    </message>
+    <message>
+        <source>time between rows of the log</source>
+        <translation>Zeit zwischen Zeilen des Protokolls</translation>
+    </message>
+    <message>
+        <source>time between searches for missing effects</source>
+        <translation>Zeit zwischen Suchen nach fehlenden Effekten</translation>
+    </message>
+    <message>
+        <source>time between states</source>
+        <translation>Zeit zwischen Zuständen</translation>
+    </message>
+    <message>
+        <source>time between touches that are printed without a time</source>
+        <translation>Zeit zwischen Antastungen, die ohne Zeit gedruckt werden</translation>
+    </message>
+    <message>
+        <source>time constant of its recovery</source>
+        <translation>Zeitkonstante ihrer Erholung</translation>
+    </message>
+    <message>
+        <source>time constant of the change</source>
+        <translation>Zeitkonstante der Änderung</translation>
+    </message>
+    <message>
+        <source>time of a scan; times as for touches</source>
+        <translation>Zeit einer Aufnahme; Zeiten wie bei touches</translation>
+    </message>
+    <message>
+        <source>time of a touch</source>
+        <translation>Zeit einer Antastung</translation>
+    </message>
+    <message>
+        <source>time of the undeformed state</source>
+        <translation>Zeit des unverformten Zustands</translation>
+    </message>
+    <message>
+        <source>times of the result</source>
+        <translation>Zeiten des Ergebnisses</translation>
+    </message>
+    <message>
+        <source>times of the states</source>
+        <translation>Zeiten der Zustände</translation>
+    </message>
+    <message>
+        <source>tip minus spindle reference</source>
+        <translation>Spitze minus Spindelbezug</translation>
+    </message>
+    <message>
+        <source>tool and table</source>
+        <translation>Werkzeug und Tisch</translation>
+    </message>
+    <message>
+        <source>tool minus every node of the table</source>
+        <translation>Werkzeug minus jeder Knoten des Tisches</translation>
+    </message>
+    <message>
+        <source>tool point minus spindle reference</source>
+        <translation>Werkzeugpunkt minus Spindelbezug</translation>
+    </message>
+    <message>
+        <source>tool point that is compensated</source>
+        <translation>Werkzeugpunkt, der kompensiert wird</translation>
+    </message>
+    <message>
+        <source>true</source>
+        <translation>true</translation>
+    </message>
+    <message>
+        <source>true, false</source>
+        <translation>true, false</translation>
+    </message>
+    <message>
+        <source>twist at the corners</source>
+        <translation>Verwindung an den Ecken</translation>
+    </message>
+    <message>
+        <source>two numbers</source>
+        <translation>zwei Zahlen</translation>
+    </message>
+    <message>
+        <source>two numbers an input</source>
+        <translation>zwei Zahlen je Eingang</translation>
+    </message>
+    <message>
+        <source>two numbers from 0 to 1</source>
+        <translation>zwei Zahlen von 0 bis 1</translation>
+    </message>
+    <message>
+        <source>two numbers, the smaller first</source>
+        <translation>zwei Zahlen, die kleinere zuerst</translation>
+    </message>
+    <message>
+        <source>two or three numbers</source>
+        <translation>zwei oder drei Zahlen</translation>
+    </message>
+    <message>
+        <source>um</source>
+        <translation>um</translation>
+    </message>
+    <message>
+        <source>uncorrelated noise</source>
+        <translation>unkorreliertes Rauschen</translation>
+    </message>
+    <message>
+        <source>unevenness of the light</source>
+        <translation>Ungleichmäßigkeit des Lichts</translation>
+    </message>
+    <message>
+        <source>unique</source>
+        <translation>eindeutig</translation>
+    </message>
+    <message>
+        <source>unit of all lengths</source>
+        <translation>Einheit aller Längen</translation>
+    </message>
+    <message>
+        <source>unit of the coordinates</source>
+        <translation>Einheit der Koordinaten</translation>
+    </message>
+    <message>
+        <source>unit of the displacements</source>
+        <translation>Einheit der Verschiebungen</translation>
+    </message>
+    <message>
+        <source>unit of the printed positions</source>
+        <translation>Einheit der gedruckten Positionen</translation>
+    </message>
+    <message>
+        <source>unit of the printed times</source>
+        <translation>Einheit der gedruckten Zeiten</translation>
+    </message>
+    <message>
+        <source>unit of the source</source>
+        <translation>Einheit der Quelle</translation>
+    </message>
+    <message>
+        <source>unit of this gain</source>
+        <translation>Einheit dieser Verstärkung</translation>
+    </message>
+    <message>
+        <source>unit vector towards the material</source>
+        <translation>Einheitsvektor zum Material hin</translation>
+    </message>
+    <message>
+        <source>upper bound</source>
+        <translation>obere Grenze</translation>
+    </message>
+    <message>
+        <source>value = scale x (value in the unit of the column) + offset</source>
+        <translation>Wert = scale x (Wert in der Einheit der Spalte) + offset</translation>
+    </message>
+    <message>
+        <source>value now; 0 with `effects`: a mechanism that is switched off</source>
+        <translation>jetziger Wert; 0 bei `effects`: ein Mechanismus, der ausgeschaltet ist</translation>
+    </message>
+    <message>
+        <source>value that counts as zero</source>
+        <translation>Wert, der als null gilt</translation>
+    </message>
+    <message>
+        <source>vector of length 1</source>
+        <translation>Vektor der Länge 1</translation>
+    </message>
+    <message>
+        <source>version</source>
+        <translation>Version</translation>
+    </message>
+    <message>
+        <source>wait for a control that went away</source>
+        <translation>Warten auf eine Steuerung, die nicht mehr antwortet</translation>
+    </message>
+    <message>
+        <source>wait for late values</source>
+        <translation>Warten auf späte Werte</translation>
+    </message>
+    <message>
+        <source>weight</source>
+        <translation>Gewicht</translation>
+    </message>
+    <message>
+        <source>weights of nodes</source>
+        <translation>Gewichte von Knoten</translation>
+    </message>
+    <message>
+        <source>what becomes of several values in a row</source>
+        <translation>was aus mehreren Werten in einer Zeile wird</translation>
+    </message>
+    <message>
+        <source>what becomes of the correction when Spindrift no longer answers</source>
+        <translation>was aus der Korrektur wird, wenn Spindrift nicht mehr antwortet</translation>
+    </message>
+    <message>
+        <source>what campaign.json states</source>
+        <translation>was campaign.json angibt</translation>
+    </message>
+    <message>
+        <source>what drives it</source>
+        <translation>was ihn antreibt</translation>
+    </message>
+    <message>
+        <source>what drives the effect</source>
+        <translation>was den Effekt antreibt</translation>
+    </message>
+    <message>
+        <source>what happens</source>
+        <translation>was geschieht</translation>
+    </message>
+    <message>
+        <source>what is done with each</source>
+        <translation>was mit jeder getan wird</translation>
+    </message>
+    <message>
+        <source>what is measured there</source>
+        <translation>was dort gemessen wird</translation>
+    </message>
+    <message>
+        <source>what it is</source>
+        <translation>was es ist</translation>
+    </message>
+    <message>
+        <source>what printed words mean</source>
+        <translation>was gedruckte Wörter bedeuten</translation>
+    </message>
+    <message>
+        <source>what the column is</source>
+        <translation>was die Spalte ist</translation>
+    </message>
+    <message>
+        <source>what the image serves for</source>
+        <translation>wozu das Bild dient</translation>
+    </message>
+    <message>
+        <source>what the machine does before it</source>
+        <translation>was die Maschine davor tut</translation>
+    </message>
+    <message>
+        <source>what the position is measured with</source>
+        <translation>womit die Position gemessen wird</translation>
+    </message>
+    <message>
+        <source>what the reference instrument read</source>
+        <translation>Anzeige des Referenzmessgeräts</translation>
+    </message>
+    <message>
+        <source>what was done</source>
+        <translation>was getan wurde</translation>
+    </message>
+    <message>
+        <source>what was put in; written by Spindrift</source>
+        <translation>was eingesetzt wurde; von Spindrift geschrieben</translation>
+    </message>
+    <message>
+        <source>what words of the source mean</source>
+        <translation>was Wörter der Quelle bedeuten</translation>
+    </message>
+    <message>
+        <source>wheel: steps</source>
+        <translation>wheel: Schritte</translation>
+    </message>
+    <message>
+        <source>when it is due</source>
+        <translation>wann es fällig ist</translation>
+    </message>
+    <message>
+        <source>where it comes from</source>
+        <translation>woher er kommt</translation>
+    </message>
+    <message>
+        <source>where it is described</source>
+        <translation>wo er beschrieben ist</translation>
+    </message>
+    <message>
+        <source>where it listens</source>
+        <translation>wo sie erreichbar ist</translation>
+    </message>
+    <message>
+        <source>where the parameters are from</source>
+        <translation>woher die Parameter stammen</translation>
+    </message>
+    <message>
+        <source>where the scale is fixed</source>
+        <translation>wo der Maßstab befestigt ist</translation>
+    </message>
+    <message>
+        <source>where the sensor sits, for people</source>
+        <translation>wo der Sensor sitzt, für Menschen</translation>
+    </message>
+    <message>
+        <source>whether each series has an unknown constant, or observations are absolute values</source>
+        <translation>ob jede Reihe eine unbekannte Konstante hat oder die Beobachtungen absolute Werte sind</translation>
+    </message>
+    <message>
+        <source>whether it is fitted, validates, or is left out</source>
+        <translation>ob sie angepasst wird, validiert oder ausgelassen wird</translation>
+    </message>
+    <message>
+        <source>whether it may be used for compensation</source>
+        <translation>ob es zur Kompensation verwendet werden darf</translation>
+    </message>
+    <message>
+        <source>whether the catalogue is searched as well</source>
+        <translation>ob auch der Katalog durchsucht wird</translation>
+    </message>
+    <message>
+        <source>whether the effect acts</source>
+        <translation>ob der Effekt wirkt</translation>
+    </message>
+    <message>
+        <source>whether the printed time begins again on the first of each month</source>
+        <translation>ob die gedruckte Zeit an jedem Monatsersten neu beginnt</translation>
+    </message>
+    <message>
+        <source>whether the profiler moves with the error of the whole scan or of each profile</source>
+        <translation>ob sich der Profilsensor mit dem Fehler der ganzen Aufnahme oder jedes Profils bewegt</translation>
+    </message>
+    <message>
+        <source>which body it stands for</source>
+        <translation>für welchen Körper er steht</translation>
+    </message>
+    <message>
+        <source>which effects go into the model</source>
+        <translation>welche Effekte in das Modell kommen</translation>
+    </message>
+    <message>
+        <source>which inputs stood together in training</source>
+        <translation>welche Eingänge im Training beieinander standen</translation>
+    </message>
+    <message>
+        <source>which keys follow</source>
+        <translation>welche Schlüssel folgen</translation>
+    </message>
+    <message>
+        <source>which position is printed</source>
+        <translation>welche Position gedruckt wird</translation>
+    </message>
+    <message>
+        <source>why not</source>
+        <translation>warum nicht</translation>
+    </message>
+    <message>
+        <source>width and height</source>
+        <translation>Breite und Höhe</translation>
+    </message>
+    <message>
+        <source>width of an image</source>
+        <translation>Breite eines Bildes</translation>
+    </message>
+    <message>
+        <source>width of the outline</source>
+        <translation>Breite des Umrisses</translation>
+    </message>
+    <message>
+        <source>width of the strokes</source>
+        <translation>Breite der Striche</translation>
+    </message>
+    <message>
+        <source>window instead</source>
+        <translation>stattdessen window</translation>
+    </message>
+    <message>
+        <source>window of the control</source>
+        <translation>Fenster des Bedienelements</translation>
+    </message>
+    <message>
+        <source>with nx and ny not zero</source>
+        <translation>mit nx und ny nicht null</translation>
+    </message>
+    <message>
+        <source>with nx and nz not zero</source>
+        <translation>mit nx und nz nicht null</translation>
+    </message>
+    <message>
+        <source>with ny and nz not zero</source>
+        <translation>mit ny und nz nicht null</translation>
+    </message>
+    <message>
+        <source>without user and password</source>
+        <translation>ohne Benutzer und Kennwort</translation>
+    </message>
+    <message>
+        <source>words to numbers</source>
+        <translation>Wörter zu Zahlen</translation>
+    </message>
+    <message>
+        <source>words to words, for each name</source>
+        <translation>Wörter zu Wörtern, für jeden Namen</translation>
+    </message>
+    <message>
+        <source>x, y, width, height</source>
+        <translation>x, y, Breite, Höhe</translation>
+    </message>
+    <message>
+        <source>x, y, z, r; r above 0</source>
+        <translation>x, y, z, r; r größer als 0</translation>
+    </message>
+    <message>
+        <source>x_mm, y_mm, z_mm instead</source>
+        <translation>stattdessen x_mm, y_mm, z_mm</translation>
+    </message>
+    <message>
+        <source>zero</source>
+        <translation>zero</translation>
     </message>
 </context>
 <context>

@@ -138,6 +138,7 @@ def collectedTexts():
         for literal, _, calls, _ in literals(text):
             if calls and calls[-1] in contexts:
                 found.add((contexts[calls[-1]], literal))
+    found.update(("files", escapedText(text)) for text in textsOfFiles())
     for path in sorted([*(TOP / "resources/help").glob("*.html"), *(TOP / "resources/help").glob("*.svg")]):
         text = path.read_text(encoding="utf-8")
         # Pieces of a page have no element around them.
@@ -145,8 +146,44 @@ def collectedTexts():
         for block in root.iter():
             if block.tag.split("}")[-1] in HELP_BLOCKS and re.search(r"[A-Za-z]{2}", "".join(block.itertext())):
                 words = re.sub(r"[ \n\t]+", " ", marked(block)).strip(" ")
-                found.add(("help", words.replace("\\", "\\\\").replace('"', '\\"')))
+                found.add(("help", escapedText(words)))
     return sorted(found)
+
+
+def escapedText(text):
+    return text.replace("\\", "\\\\").replace('"', '\\"').replace("\n", "\\n")
+
+
+FILE_TOKEN = re.compile(r'R"\((.*?)\)"|"((?:[^"\\]|\\.)*)"|//[^\n]*|[{},]', re.S)
+
+
+def textsOfFiles():
+    """Words for people of the table of files (core/workflows/file_formats.cpp): its introduction, and of every format the
+    title, what it is, and of its keys all but their paths. What is code or a number alone stays in every language."""
+    source = (TOP / "core/workflows/file_formats.cpp").read_text(encoding="utf-8")
+    found = {re.search(r'introduction = R"\((.*?)\)";', source, re.S).group(1)}
+    found |= {"Key or column", "Unit", "Without it", "Allowed", "Meaning"}
+    depth, fields, field = 0, [], ""
+    for match in FILE_TOKEN.finditer(source, source.index("texts{{") + len("texts{")):
+        token = match.group(0)
+        if match.group(1) is not None:
+            field += match.group(1)
+        elif match.group(2) is not None:
+            field += re.sub(r"\\(.)", r"\1", match.group(2))
+        elif token == "{":
+            depth += 1
+        elif token in (",", "}") and depth == 2:
+            fields.append(field)
+            field = ""
+            if token == "}":
+                _, title, _, what, _, keys = fields
+                lines = [[part.strip() for part in line.split("|")] for line in keys.splitlines() if line.strip()]
+                found |= {title, what} | {part for line in lines for part in line[1:]}
+                fields = []
+                depth -= 1
+        elif token == "}":
+            break
+    return {text for text in found if re.search(r"[A-Za-z]{2}", re.sub(r"`[^`]*`", "", text))}
 
 
 def marked(element):

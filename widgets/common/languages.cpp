@@ -101,8 +101,11 @@ void applyLanguage(const QString& code) {
   QLocale::setDefault(numbersOf(now.code));
   std::optional<ReportLanguage> of_reports;
   if (now.code != availableLanguages().front().code) {
-    of_reports = ReportLanguage{now.code.toStdString(),
-                                [](const std::string& english) { return coreSentence(english).toStdString(); }};
+    of_reports = ReportLanguage{
+        now.code.toStdString(), [](const std::string& english) { return coreSentence(english).toStdString(); },
+        [](std::string_view english) {
+          return QCoreApplication::translate("files", std::string(english).c_str()).toStdString();
+        }};
   }
   offerReportLanguage(std::move(of_reports));
   static QObject* keys = nullptr;

@@ -35,6 +35,7 @@
 #include "core/plant/plant_store.h"
 #include "core/reporting/report_language.h"
 #include "core/tasks/report_task.h"
+#include "core/workflows/file_reference.h"
 #include "core/workflows/manual.h"
 #include "tests/widgets/support/story_support.h"
 #include "widgets/common/help_text.h"
@@ -435,7 +436,7 @@ TEST_F(LanguageOfWindows, NoTextOfWindowsAndDialogsIsLeftOut) {
   expectTranslatedAndClose(news, "news");
 }
 
-TEST_F(LanguageOfWindows, TheManualIsGermanApartFromTheReferenceOfFiles) {
+TEST_F(LanguageOfWindows, TheManualIsGerman) {
   ASSERT_TRUE(offeredReportLanguage());
   const Report manual = manualIn(*offeredReportLanguage());
   // What people wrote in German, and what stands in English on purpose, is not looked at: what the program says is.
@@ -451,6 +452,28 @@ TEST_F(LanguageOfWindows, TheManualIsGermanApartFromTheReferenceOfFiles) {
   }
   EXPECT_GT(generated.size(), 100U);
   expectTranslated(generated, "manual", {});
+}
+
+TEST_F(LanguageOfWindows, TheReferenceOfFilesIsGerman) {
+  ASSERT_TRUE(offeredReportLanguage());
+  const auto& translated = offeredReportLanguage()->of_files;
+  static const QRegularExpression code(QStringLiteral("`[^`]*`"));
+  int looked_at = 0;
+  const auto expect = [&](const std::string& english, const std::string& of) {
+    QString plain = QString::fromStdString(english);
+    if (wordsOf(plain.remove(code)).isEmpty()) return;
+    EXPECT_TRUE(QString::fromStdString(translated(english)).startsWith(QChar(begin_mark))) << of << ": " << english;
+    ++looked_at;
+  };
+  for (const FileFormat& format : fileFormats()) {
+    expect(format.file, format.id);
+    expect(format.what, format.id);
+    for (const FileKey& key : format.keys)
+      for (const std::string& text : {key.without, key.allowed, key.meaning}) expect(text, format.id + " " + key.path);
+  }
+  EXPECT_GT(looked_at, 900);
+  EXPECT_TRUE(QString::fromStdString(translated(filesMarkdown().substr(0, filesMarkdown().find("## ") - 1)))
+                  .startsWith(QChar(begin_mark)));
 }
 
 TEST_F(LanguageOfWindows, NoTextOfThePlantIsLeftOut) {

@@ -187,7 +187,7 @@ std::span<const char* const> spindrift::gui::core_formats::workflows() noexcept 
     QT_TRANSLATE_NOOP("core", "The one capture of the plan is there."),
     QT_TRANSLATE_NOOP("core", "The plan has no {} left to take; it is kept aside."),
     QT_TRANSLATE_NOOP("core", "The plan of the loop: {}"),
-    QT_TRANSLATE_NOOP("core", "The reference of the files follows in English, as their keys are. That of the commands is in the English manual."),
+    QT_TRANSLATE_NOOP("core", "The reference of the commands is in the English manual."),
     QT_TRANSLATE_NOOP("core", "The residual of the ARX equation is not white (noise at the output, or missing dynamics): its coefficients are biased and their intervals do not hold; use --method oe or response."),
     QT_TRANSLATE_NOOP("core", "The same on data not used for fitting"),
     QT_TRANSLATE_NOOP("core", "The same plan before and after compensating"),
