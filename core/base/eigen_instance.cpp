@@ -3,30 +3,19 @@
 #define SPINDRIFT_EIGEN_ELSEWHERE
 #include "resources/precompiled/eigen.h"
 
-#include <cassert>
-#include <limits>
-
-/// BLAS, as Fortran calls it: result = alpha op(a) op(b) + beta result.
-extern "C" void dgemm_(const char* op_a, const char* op_b, const int* m, const int* n, const int* k,
-                       const double* alpha, const double* a, const int* a_stride, const double* b, const int* b_stride,
-                       const double* beta, double* result, const int* result_stride);
+#include <blis.h>
 
 namespace spindrift {
 
+// By BLIS's own interface: that of BLAS may be any library's that was loaded before.
 void addProduct(Eigen::Index rows, Eigen::Index cols, Eigen::Index depth, const double* lhs, Eigen::Index lhs_stride,
                 bool lhs_by_rows, const double* rhs, Eigen::Index rhs_stride, bool rhs_by_rows, double* result,
                 Eigen::Index result_stride, double factor) {
-  // What has no entries has nothing to add, and may have a stride that BLAS refuses.
   if (rows == 0 || cols == 0 || depth == 0) return;
-  const auto counted = [](Eigen::Index n) {
-    assert(n > 0 && n <= std::numeric_limits<int>::max());
-    return static_cast<int>(n);
-  };
-  const int m = counted(rows), n = counted(cols), k = counted(depth);
-  const int a_stride = counted(lhs_stride), b_stride = counted(rhs_stride), stride = counted(result_stride);
-  const double one = 1.0;
-  dgemm_(lhs_by_rows ? "T" : "N", rhs_by_rows ? "T" : "N", &m, &n, &k, &factor, lhs, &a_stride, rhs, &b_stride, &one,
-         result, &stride);
+  double one = 1.0;
+  bli_dgemm(BLIS_NO_TRANSPOSE, BLIS_NO_TRANSPOSE, rows, cols, depth, &factor, const_cast<double*>(lhs),
+            lhs_by_rows ? lhs_stride : 1, lhs_by_rows ? 1 : lhs_stride, const_cast<double*>(rhs),
+            rhs_by_rows ? rhs_stride : 1, rhs_by_rows ? 1 : rhs_stride, &one, result, 1, result_stride);
 }
 
 }  // namespace spindrift

@@ -87,15 +87,13 @@ double CameraSource::framesPerSecond() const {
 void writeVideo(const std::string& file, const std::vector<GrayImage>& images, double frames_per_second) {
   if (images.empty()) throw InputError({file, ""}, "cannot be written: no images.");
   const cv::Size size(images.front().width(), images.front().height());
-  const std::unique_ptr<cv::VideoWriter> writer = imageFiles().writer();
-  constexpr int motion_jpeg = 'M' | 'J' << 8 | 'P' << 16 | 'G' << 24;
+  std::unique_ptr<cv::VideoWriter> writer;
   try {
-    writer->open(file, cv::CAP_OPENCV_MJPEG, motion_jpeg, frames_per_second, size, true);
+    writer = imageFiles().writer(file, frames_per_second, size.width, size.height);
   } catch (const cv::Exception&) {
     throw InputError({file, ""}, "cannot be written as a video.");
   }
-  if (!writer->isOpened())
-    throw InputError({file, ""}, "cannot be written as a video; allowed: a name ending in .avi.");
+  if (writer == nullptr) throw InputError({file, ""}, "cannot be written as a video; allowed: a name ending in .avi.");
   for (const GrayImage& image : images) {
     if (image.width() != size.width || image.height() != size.height) {
       throw InputError({file, ""}, "cannot be written: the images differ in size.");

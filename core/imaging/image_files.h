@@ -22,7 +22,9 @@ struct ImageFiles {
   cv::Mat (*decode)(const cv::Mat& bytes, int flags);
   cv::Mat (*read)(const std::string& file, int flags);
   std::unique_ptr<cv::VideoCapture> (*capture)();
-  std::unique_ptr<cv::VideoWriter> (*writer)();
+  /// Motion JPEG in an .avi of pictures in colour; null where it cannot be written.
+  std::unique_ptr<cv::VideoWriter> (*writer)(const std::string& file, double frames_per_second, int width_px,
+                                             int height_px);
 };
 
 /// InputError where the installation lacks it.

@@ -16,11 +16,16 @@
 namespace spindrift {
 namespace {
 
-DiscrepancyResult answerTo(const StudyCase& made) {
+DiscrepancyResult answerTo(const StudyCampaign& measured) {
   JobContext job;
   DiscrepancyOptions options;
   options.suggest = false;
-  return findDiscrepancy(study::inputOf(simulateStudy(made, job).campaign), options, job);
+  return findDiscrepancy(study::inputOf(measured.campaign), options, job);
+}
+
+DiscrepancyResult answerTo(const StudyCase& made) {
+  JobContext job;
+  return answerTo(simulateStudy(made, job));
 }
 
 TEST(CommonNoise, AWeakEffectIsNotTakenForShiftsOfStates) {
@@ -121,7 +126,8 @@ TEST(CommonNoise, ThatDriftsIsToldAsTheInstrumentsAndNamesNothing) {
     StudyOptions study;
     study.kind = StudyKind::Nothing;
     study.conditions.drift = true;
-    const StudyCase made = studyCase(study, 71'500 + number);
+    JobContext job;
+    const StudyCampaign made = simulateStudy(studyCase(study, 71'500 + number), job);
     const DiscrepancyResult result = answerTo(made);
     EXPECT_TRUE(result.effects.empty()) << number;
     for (const NoiseEstimate& n : result.noise) {
