@@ -8,9 +8,9 @@
 namespace spindrift {
 
 std::string printedUnit(std::string_view unit) {
-  constexpr std::array<std::pair<std::string_view, std::string_view>, 3> signs{
-      {{"um", "µm"}, {"urad", "µrad"}, {"degC", "°C"}}};
-  constexpr std::string_view between = " /()";
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 5> signs{
+      {{"um", "µm"}, {"urad", "µrad"}, {"degC", "°C"}, {"um2", "µm²"}, {"urad2", "µrad²"}}};
+  constexpr std::string_view between = " ,/()";
   std::string out;
   for (std::size_t i = 0; i < unit.size();) {
     const std::size_t end = std::min(unit.find_first_of(between, i), unit.size());

@@ -94,7 +94,7 @@ std::string markdownOf(const FileFormat& format, const TextTranslation& translat
   text += fmt::format("| {} | {} | {} | {} | {} |\n|---|---|---|---|---|\n", in("Key or column"), in("Unit"),
                       in("Without it"), in("Allowed"), in("Meaning"));
   for (const FileKey& key : format.keys) {
-    text += fmt::format("| `{}` | {} | {} | {} | {} |\n", key.path, printedUnit(key.unit), in(key.without),
+    text += fmt::format("| `{}` | {} | {} | {} | {} |\n", key.path, printedUnit(in(key.unit)), in(key.without),
                         in(key.allowed), in(key.meaning));
   }
   return text + "\n";

@@ -14629,6 +14629,42 @@ ihrem Ordner und führen nicht hinaus.
         <source>zero</source>
         <translation>zero</translation>
     </message>
+    <message>
+        <source>grey values</source>
+        <translation>Grauwerte</translation>
+    </message>
+    <message>
+        <source>in their names</source>
+        <translation>in ihren Namen</translation>
+    </message>
+    <message>
+        <source>its own</source>
+        <translation>eigene</translation>
+    </message>
+    <message>
+        <source>output for each input</source>
+        <translation>Ausgang je Eingang</translation>
+    </message>
+    <message>
+        <source>that of mm_per_unit</source>
+        <translation>die von mm_per_unit</translation>
+    </message>
+    <message>
+        <source>that of s_per_unit</source>
+        <translation>die von s_per_unit</translation>
+    </message>
+    <message>
+        <source>that of the output</source>
+        <translation>die des Ausgangs</translation>
+    </message>
+    <message>
+        <source>that of the parameter</source>
+        <translation>die des Parameters</translation>
+    </message>
+    <message>
+        <source>um, urad for each unit of the parameter</source>
+        <translation>um, urad je Einheit des Parameters</translation>
+    </message>
 </context>
 <context>
     <name>help</name>

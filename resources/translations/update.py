@@ -179,6 +179,8 @@ def textsOfFiles():
                 _, title, _, what, _, keys = fields
                 lines = [[part.strip() for part in line.split("|")] for line in keys.splitlines() if line.strip()]
                 found |= {title, what} | {part for line in lines for part in line[1:]}
+                units = {unit for line in lines for unit in re.findall(r" {(.*)}$", line[0])}
+                found |= {unit for unit in units if re.search(r"\b(?!u?rad|sigma|min)[a-z]{3,}", unit)}
                 fields = []
                 depth -= 1
         elif token == "}":

@@ -33,7 +33,8 @@ TEST(Text, UnitsOfFilesAreSymbolsInTexts) {
   EXPECT_EQ(printedUnit("urad/K"), "µrad/K");
   EXPECT_EQ(printedUnit("um/(m K)"), "µm/(m K)");
   EXPECT_EQ(printedUnit("degC"), "°C");
-  for (const char* unit : {"", "mm/min", "rpm", "umbra", "1", "um2"}) EXPECT_EQ(printedUnit(unit), unit);
+  EXPECT_EQ(printedUnit("um2, um urad, urad2"), "µm², µm µrad, µrad²");
+  for (const char* unit : {"", "mm/min", "rpm", "umbra", "1"}) EXPECT_EQ(printedUnit(unit), unit);
   for (const auto& [name, unit] : {std::pair{"Z_um", "um"},
                                    {"A_urad", "urad"},
                                    {"EXX_um_per_m", "um/m"},
