@@ -461,7 +461,8 @@ TEST_F(LanguageOfWindows, TheReferenceOfFilesIsGerman) {
   int looked_at = 0;
   const auto expect = [&](const std::string& english, const std::string& of) {
     QString plain = QString::fromStdString(english);
-    if (wordsOf(plain.remove(code)).isEmpty()) return;
+    // Keys of the keyboard are left without marks.
+    if (plain.startsWith(QStringLiteral("Ctrl")) || wordsOf(plain.remove(code)).isEmpty()) return;
     EXPECT_TRUE(QString::fromStdString(translated(english)).startsWith(QChar(begin_mark))) << of << ": " << english;
     ++looked_at;
   };
