@@ -149,6 +149,7 @@ set(CPACK_DEBIAN_PACKAGE_MAINTAINER "Spindrift maintainers <spindrift@example.or
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_SHLIBDEPS ON)
 # Loaded at run time, so no linked library tells of them.
-set(CPACK_DEBIAN_RUNTIME_PACKAGE_DEPENDS "fonts-inter, libgl1-mesa-dri, libegl1, libqt6svg6, qt6-translations-l10n")
+# What BLIS says of itself names all of its kinds: the one of one thread.
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_DEPENDS "libblis4-serial, fonts-inter, libgl1-mesa-dri, libegl1, libqt6svg6, qt6-translations-l10n")
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_SUGGESTS "calculix-ccx")
 include(CPack)
