@@ -139,11 +139,13 @@ TEST(Glossary, TermsAreTranslatedAsItSays) {
       continue;
     const QString term = cells[1].trimmed().section(QStringLiteral(" ("), 0, 0);
     const QRegularExpression word(
-        QStringLiteral("(?<![\\w\"-])%1(?![\\w\".-]\\w|[\\w\"-])").arg(QRegularExpression::escape(term)),
+        QStringLiteral("(?<![\\w\"{-])%1(?![\\w\".-]\\w|[\\w\"}-])").arg(QRegularExpression::escape(term)),
         QRegularExpression::CaseInsensitiveOption);
     ++terms;
     for (const Text& text : texts) {
-      if (!word.match(text.source).hasMatch()) continue;
+      // A value that a file may hold is the same in every language.
+      const bool value = text.context == QLatin1String("files") && text.translations == QStringList{text.source};
+      if (value || !word.match(text.source).hasMatch()) continue;
       ++sentences;
       for (const QString& translation : text.translations) {
         bool said = false;
@@ -203,7 +205,7 @@ TEST(Sentences, HaveUnitsAsPeopleWriteThem) {
   int sentences = 0;
   for (const Text& text : textsOf(QStringLiteral("spindrift_de.ts"))) {
     ++sentences;
-    if (text.source == of_files) continue;
+    if (text.source == of_files || text.context == QLatin1String("files")) continue;
     EXPECT_FALSE(file_unit.match(text.source).hasMatch()) << text.source.toStdString();
   }
   EXPECT_GT(sentences, 5000);
