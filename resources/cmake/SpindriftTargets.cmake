@@ -72,8 +72,8 @@ function(spindrift_module name)
   target_compile_options(spindrift_${name} PRIVATE -Wall -Wextra $<$<BOOL:${SPINDRIFT_WARNINGS_AS_ERRORS}>:-Werror>
                                                    -Wno-maybe-uninitialized -Wno-array-bounds)
   target_link_libraries(spindrift_${name} PRIVATE ${ARG_LINK})
-  # What it takes is there, whoever loads it.
-  target_link_options(spindrift_${name} PRIVATE -Wl,-z,defs)
+  # What it takes is there, whoever loads it; libc is named also where all that it calls is of other libraries.
+  target_link_options(spindrift_${name} PRIVATE -Wl,-z,defs -Wl,--no-as-needed)
   add_dependencies(spindrift_${ARG_FOR} spindrift_${name})
 endfunction()
 
