@@ -267,15 +267,19 @@ Eigen::VectorXd DriverTable::response(const Driver& driver, double tau_on_s, dou
   for (std::size_t i = 0; i < times_s.size(); ++i) {
     const double t = times_s[i];
     while (k + 1 < n && time_s_[k + 1] <= t) {
-      const double dt = time_s_[k + 1] - time_s_[k];
       const double u = driver.values[k];
+      // As far as an input is held it is one step.
+      std::size_t end = k + 1;
+      if (!driver.linear)
+        while (end + 1 < n && time_s_[end + 1] <= t && driver.values[end] == u) ++end;
+      const double dt = time_s_[end] - time_s_[k];
       if (!lagged) {
-        q = driver.values[k + 1];
+        q = driver.values[end];
       } else if (dt > 0.0) {
-        const double slope = driver.linear ? (driver.values[k + 1] - u) / dt : 0.0;
+        const double slope = driver.linear ? (driver.values[end] - u) / dt : 0.0;
         q = advanced(q, u != 0.0 ? on : off, u, slope, dt);
       }
-      ++k;
+      k = end;
     }
     const double dt = std::max(0.0, t - time_s_[k]);
     double slope = 0.0;
