@@ -27,6 +27,7 @@
 #include "core/connect/linuxcnc_shell.h"
 #include "core/connect/source.h"
 #include "core/control/private_control.h"
+#include "tests/core/control/on_private_control.h"
 #include "tests/support/source_folder.h"
 #include "tests/support/temp_folder.h"
 
@@ -174,10 +175,7 @@ std::optional<double> applied_um(HalCommands& watch) {
   }
 }
 
-void withPrivateControl(const std::function<std::string()>& body, double limit_s) {
-  if (const std::string why = whyNoPrivateControl(); !why.empty()) GTEST_SKIP() << why;
-  EXPECT_EQ(isolated(body, {}, limit_s), "");
-}
+class LoopCommandOnAControl : public OnPrivateControl {};
 
 TEST(LoopCommand, TheExampleOfTheResourcesIsThatOfTheProgram) {
   const TempFolder folder;
@@ -196,24 +194,27 @@ TEST(LoopCommand, TheExampleOfTheResourcesIsThatOfTheProgram) {
   EXPECT_THAT(contents(folder / "dry.txt"), ::testing::HasSubstr("6 touches"));
 }
 
-TEST(LoopCommand, ClosesTheLoopByItsPlanAloneOnARealControl) {
-  withPrivateControl(
-      [] {
-        Story story(1.0, {{"identify_s", 0}, {"discrepancy_s", 0}});
-        story.startLoop();
-        int status = -1;
-        if (!waitFor([&] { return (status = story.loop.status()) >= 0; }, 100.0)) return std::string("does not end");
-        if (status != 0) return fmt::format("status {}: {}", status, contents("/tmp/loop.txt"));
-        const nlohmann::json out = JsonNode::read(story.campaign / "loop.json").value();
-        std::string wrong;
-        if (!out["completed"].get<bool>()) wrong += "not completed; ";
-        const double without = out["rms_without_um"]["EZ"].get<double>(), with = out["rms_with_um"]["EZ"].get<double>();
-        if (!(without > 5.0 && with < 0.3 * without)) wrong += fmt::format("EZ {} -> {} um; ", without, with);
-        if (contents("/tmp/loop.txt").find("active: X") == std::string::npos) wrong += "no status said; ";
-        if (!std::filesystem::exists(story.campaign / "report.html")) wrong += "no report; ";
-        return wrong;
-      },
-      180.0);
+TEST_F(LoopCommandOnAControl, ClosesTheLoopByItsPlanAloneOnARealControl) {
+  EXPECT_EQ(isolated(
+                [] {
+                  Story story(1.0, {{"identify_s", 0}, {"discrepancy_s", 0}});
+                  story.startLoop();
+                  int status = -1;
+                  if (!waitFor([&] { return (status = story.loop.status()) >= 0; }, 100.0))
+                    return std::string("does not end");
+                  if (status != 0) return fmt::format("status {}: {}", status, contents("/tmp/loop.txt"));
+                  const nlohmann::json out = JsonNode::read(story.campaign / "loop.json").value();
+                  std::string wrong;
+                  if (!out["completed"].get<bool>()) wrong += "not completed; ";
+                  const double without = out["rms_without_um"]["EZ"].get<double>(),
+                               with = out["rms_with_um"]["EZ"].get<double>();
+                  if (!(without > 5.0 && with < 0.3 * without)) wrong += fmt::format("EZ {} -> {} um; ", without, with);
+                  if (contents("/tmp/loop.txt").find("active: X") == std::string::npos) wrong += "no status said; ";
+                  if (!std::filesystem::exists(story.campaign / "report.html")) wrong += "no report; ";
+                  return wrong;
+                },
+                {}, 180.0),
+            "");
 }
 
 /// Loop, its client of the control (shell and pins in turn), or the control itself is killed; everything comes back.
@@ -274,8 +275,8 @@ std::string killedInTheLoop() {
   return wrong;
 }
 
-TEST(LoopCommand, KilledAtRandomTimesItLosesNothingAndGoesOn) {
-  withPrivateControl(killedInTheLoop, 120.0 + 60.0 * kills());
+TEST_F(LoopCommandOnAControl, KilledAtRandomTimesItLosesNothingAndGoesOn) {
+  EXPECT_EQ(isolated(killedInTheLoop, {}, 120.0 + 60.0 * kills()), "");
 }
 
 }  // namespace

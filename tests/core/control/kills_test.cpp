@@ -92,42 +92,47 @@ std::string killedClients(bool hold) {
   return wrong;
 }
 
-TEST(Kills, OfTheDriverFadeTheCompensation) {
-  withPrivateControl([] { return killedClients(false); }, 60.0 + 12.0 * kills());
+class Kills : public OnPrivateControl {};
+
+TEST_F(Kills, OfTheDriverFadeTheCompensation) {
+  EXPECT_EQ(isolated([] { return killedClients(false); }, {}, 60.0 + 12.0 * kills()), "");
 }
 
-TEST(Kills, OfTheDriverHoldItWhereThatWasChosen) {
-  withPrivateControl([] { return killedClients(true); }, 60.0 + 12.0 * kills());
+TEST_F(Kills, OfTheDriverHoldItWhereThatWasChosen) {
+  EXPECT_EQ(isolated([] { return killedClients(true); }, {}, 60.0 + 12.0 * kills()), "");
 }
 
-TEST(Kills, OfTheControlAreSaidAndBeginAtZeroAgain) {
-  withPrivateControl(
-      [] {
-        std::string wrong;
-        RunningControl running(quick());
-        for (int k = 0; k < kills() && wrong.empty(); ++k) {
-          running.control->switchOn(true);
-          running.control->openChannel(true);
-          CompensationStatus status;
-          for (int i = 0; i < 100 && std::abs(status.applied_um.z() - 10.0) > 0.01; ++i) {
-            status = running.control->compensate({0.0, 0.0, 10.0});
-            ::usleep(30000);
-          }
-          if (std::abs(status.applied_um.z() - 10.0) > 0.01) wrong += fmt::format("kill {}: not applied; ", k);
-          running.process->kill();
-          const bool said = waitUntil(
-              [&] { return running.control->state().condition == ControlState::Condition::Unreachable; }, 10.0);
-          if (!said) wrong += fmt::format("kill {}: not noticed; ", k);
-          running.start();
-          if (running.control->state().condition != ControlState::Condition::EmergencyStop)
-            wrong += fmt::format("kill {}: comes back as \"{}\"; ", k, running.control->state().sentence);
-          status = running.control->compensation();
-          if (status.applied_um.cwiseAbs().maxCoeff() > 0.01 || status.watched)
-            wrong += fmt::format("kill {}: comes back with {} um; ", k, status.applied_um.z());
-        }
-        return wrong;
-      },
-      60.0 + 20.0 * kills());
+TEST_F(Kills, OfTheControlAreSaidAndBeginAtZeroAgain) {
+  EXPECT_EQ(isolated(
+                [] {
+                  std::string wrong;
+                  RunningControl running(quick());
+                  for (int k = 0; k < kills() && wrong.empty(); ++k) {
+                    running.control->switchOn(true);
+                    running.control->openChannel(true);
+                    CompensationStatus status;
+                    for (int i = 0; i < 100 && std::abs(status.applied_um.z() - 10.0) > 0.01; ++i) {
+                      status = running.control->compensate({0.0, 0.0, 10.0});
+                      ::usleep(30000);
+                    }
+                    if (std::abs(status.applied_um.z() - 10.0) > 0.01)
+                      wrong += fmt::format("kill {}: not applied; ", k);
+                    running.process->kill();
+                    const bool said = waitUntil(
+                        [&] { return running.control->state().condition == ControlState::Condition::Unreachable; },
+                        10.0);
+                    if (!said) wrong += fmt::format("kill {}: not noticed; ", k);
+                    running.start();
+                    if (running.control->state().condition != ControlState::Condition::EmergencyStop)
+                      wrong += fmt::format("kill {}: comes back as \"{}\"; ", k, running.control->state().sentence);
+                    status = running.control->compensation();
+                    if (status.applied_um.cwiseAbs().maxCoeff() > 0.01 || status.watched)
+                      wrong += fmt::format("kill {}: comes back with {} um; ", k, status.applied_um.z());
+                  }
+                  return wrong;
+                },
+                {}, 60.0 + 20.0 * kills()),
+            "");
 }
 
 }  // namespace

@@ -56,149 +56,160 @@ bool has(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
 
-TEST(LinuxcncReal, TheSourceReadsWhatTheControlIs) {
-  withPrivateControl([] {
-    Wrong wrong;
-    RunningControl running;
-    running.control->close();  // its one connection
-    LinuxcncOptions options;
-    options.url = "linuxcnc://127.0.0.1:5007";
-    options.interval_s = 0.05;
-    const auto source = makeLinuxcncSource(options);
-    source->connect({});
-    const std::vector<DataItem> items = source->list(0.1, {});
-    wrong.unless(items.size() > 200, fmt::format("{} items", items.size()));
-    Collected sink;
-    source->subscribe({"position.x", "flood", "machine", "spindle", "joint.2", "hal:T-spindle-degC",
-                       "hal:motion.motion-enabled", "hal:nowhere"},
-                      sink, {});
-    (void)pollUntil(*source, sink, [&] { return sink.records.size() >= 16; });
-    wrong.unless(source->unit("position.x") == "MILLIMETER", "unit " + source->unit("position.x"));
-    wrong.unless(sink.records.size() >= 16, "records");
-    wrong.unless(sink.records.at(0).value == 0.0 && sink.records.at(1).text == "OFF" &&
-                     sink.records.at(2).text == "OFF" && sink.records.at(3).text == "OFF",
-                 "words");
-    wrong.unless(sink.values(5).at(0) == 20.0, "temperature");
-    wrong.unless(sink.values(6).at(0) == 0.0, "off");
-    wrong.unless(sink.records.at(7).quality == Quality::Unavailable && sink.notes.size() == 1,
-                 "a pin that is not there");
-    // Killed: a loss that is said, and a connection again when it is back.
-    running.process->kill();
-    std::string lost;
-    for (int i = 0; i < 300 && lost.empty(); ++i) lost = said([&] { source->poll(0.02, sink); });
-    running.start();
-    running.control->close();
-    const std::string again = said([&] {
-      source->connect({});
-      source->subscribe({"position.x", "hal:T-spindle-degC"}, sink, {});
-      (void)pollUntil(*source, sink, [&] { return sink.records.size() >= 30; });
-    });
-    wrong.unless(again.empty(), again);
-    wrong.unless(sink.missings.size() == 1, "what was missed");
-    return wrong.said();
-  });
+class LinuxcncReal : public OnPrivateControl {};
+
+TEST_F(LinuxcncReal, TheSourceReadsWhatTheControlIs) {
+  EXPECT_EQ(isolated(
+                [] {
+                  Wrong wrong;
+                  RunningControl running;
+                  running.control->close();  // its one connection
+                  LinuxcncOptions options;
+                  options.url = "linuxcnc://127.0.0.1:5007";
+                  options.interval_s = 0.05;
+                  const auto source = makeLinuxcncSource(options);
+                  source->connect({});
+                  const std::vector<DataItem> items = source->list(0.1, {});
+                  wrong.unless(items.size() > 200, fmt::format("{} items", items.size()));
+                  Collected sink;
+                  source->subscribe({"position.x", "flood", "machine", "spindle", "joint.2", "hal:T-spindle-degC",
+                                     "hal:motion.motion-enabled", "hal:nowhere"},
+                                    sink, {});
+                  (void)pollUntil(*source, sink, [&] { return sink.records.size() >= 16; });
+                  wrong.unless(source->unit("position.x") == "MILLIMETER", "unit " + source->unit("position.x"));
+                  wrong.unless(sink.records.size() >= 16, "records");
+                  wrong.unless(sink.records.at(0).value == 0.0 && sink.records.at(1).text == "OFF" &&
+                                   sink.records.at(2).text == "OFF" && sink.records.at(3).text == "OFF",
+                               "words");
+                  wrong.unless(sink.values(5).at(0) == 20.0, "temperature");
+                  wrong.unless(sink.values(6).at(0) == 0.0, "off");
+                  wrong.unless(sink.records.at(7).quality == Quality::Unavailable && sink.notes.size() == 1,
+                               "a pin that is not there");
+                  // Killed: a loss that is said, and a connection again when it is back.
+                  running.process->kill();
+                  std::string lost;
+                  for (int i = 0; i < 300 && lost.empty(); ++i) lost = said([&] { source->poll(0.02, sink); });
+                  running.start();
+                  running.control->close();
+                  const std::string again = said([&] {
+                    source->connect({});
+                    source->subscribe({"position.x", "hal:T-spindle-degC"}, sink, {});
+                    (void)pollUntil(*source, sink, [&] { return sink.records.size() >= 30; });
+                  });
+                  wrong.unless(again.empty(), again);
+                  wrong.unless(sink.missings.size() == 1, "what was missed");
+                  return wrong.said();
+                },
+                {}, 60.0),
+            "");
 }
 
-TEST(LinuxcncReal, ItsStatesAreUnderstoodAndSaid) {
+TEST_F(LinuxcncReal, ItsStatesAreUnderstoodAndSaid) {
   using Condition = ControlState::Condition;
-  withPrivateControl(
-      [] {
-        Wrong wrong;
-        RunningControl running;
-        LinuxcncControl& control = *running.control;
-        for (const ControlFinding& finding : control.check())
-          wrong.unless(finding.good, finding.what + ": " + finding.sentence);
-        wrong.unless(control.state().condition == Condition::EmergencyStop, "emergency stop");
-        wrong.unless(has(said([&] { control.switchOn(false); }), "not confirmed"), "switched on unasked");
-        wrong.unless(control.state().condition == Condition::EmergencyStop, "still in emergency stop");
-        wrong.unless(has(said([&] { control.start(running.approved(touch_floor)); }), "emergency stop"),
-                     "started in e-stop");
-        control.switchOn(true);
-        wrong.unless(control.state().ready(), control.state().sentence);
-        wrong.unless(has(said([&] {
-                           (void)ApprovedProgram::approve("G0 X400\nM2\n", threeAxisMill(), {0, 0, 0},
-                                                          [](const DryRun&) { return true; });
-                         }),
-                         "outside the travel"),
-                     "outside");
-        wrong.unless(has(said([&] {
-                           (void)ApprovedProgram::approve("G0 X4\nM2\n", threeAxisMill(), {0, 0, 0},
-                                                          [](const DryRun&) { return false; });
-                         }),
-                         "not confirmed"),
-                     "unconfirmed");
-        control.start(running.approved("G21 G90\nG1 X100 F1200\nM2\n"));
-        wrong.unless(control.state().condition == Condition::Busy, "busy");
-        wrong.unless(has(said([&] { control.start(running.approved("G0 X0\nM2\n")); }), "is running"),
-                     "started while busy");
-        control.abort();
-        wrong.unless(waitUntil([&] { return control.state().ready(); }, 5.0), "aborted");
-        // No contact: the words of the control.
-        (void)running.run("G21 G90\nG0 Z-50\nG38.2 Z-60 F600\nM2\n");
-        const std::vector<std::string> words = control.messages();
-        wrong.unless(!words.empty() && has(words[0], "G38.2"), "a touch without contact is said");
-        running.process->kill();
-        const bool gone = waitUntil([&] { return control.state().condition == Condition::Unreachable; }, 10.0);
-        wrong.unless(gone, "killed: " + control.state().sentence);
-        running.start();
-        wrong.unless(running.control->state().condition == Condition::EmergencyStop, "restarted");
-        return wrong.said();
-      },
-      90.0);
+  EXPECT_EQ(isolated(
+                [] {
+                  Wrong wrong;
+                  RunningControl running;
+                  LinuxcncControl& control = *running.control;
+                  for (const ControlFinding& finding : control.check())
+                    wrong.unless(finding.good, finding.what + ": " + finding.sentence);
+                  wrong.unless(control.state().condition == Condition::EmergencyStop, "emergency stop");
+                  wrong.unless(has(said([&] { control.switchOn(false); }), "not confirmed"), "switched on unasked");
+                  wrong.unless(control.state().condition == Condition::EmergencyStop, "still in emergency stop");
+                  wrong.unless(has(said([&] { control.start(running.approved(touch_floor)); }), "emergency stop"),
+                               "started in e-stop");
+                  control.switchOn(true);
+                  wrong.unless(control.state().ready(), control.state().sentence);
+                  wrong.unless(has(said([&] {
+                                     (void)ApprovedProgram::approve("G0 X400\nM2\n", threeAxisMill(), {0, 0, 0},
+                                                                    [](const DryRun&) { return true; });
+                                   }),
+                                   "outside the travel"),
+                               "outside");
+                  wrong.unless(has(said([&] {
+                                     (void)ApprovedProgram::approve("G0 X4\nM2\n", threeAxisMill(), {0, 0, 0},
+                                                                    [](const DryRun&) { return false; });
+                                   }),
+                                   "not confirmed"),
+                               "unconfirmed");
+                  control.start(running.approved("G21 G90\nG1 X100 F1200\nM2\n"));
+                  wrong.unless(control.state().condition == Condition::Busy, "busy");
+                  wrong.unless(has(said([&] { control.start(running.approved("G0 X0\nM2\n")); }), "is running"),
+                               "started while busy");
+                  control.abort();
+                  wrong.unless(waitUntil([&] { return control.state().ready(); }, 5.0), "aborted");
+                  // No contact: the words of the control.
+                  (void)running.run("G21 G90\nG0 Z-50\nG38.2 Z-60 F600\nM2\n");
+                  const std::vector<std::string> words = control.messages();
+                  wrong.unless(!words.empty() && has(words[0], "G38.2"), "a touch without contact is said");
+                  running.process->kill();
+                  const bool gone =
+                      waitUntil([&] { return control.state().condition == Condition::Unreachable; }, 10.0);
+                  wrong.unless(gone, "killed: " + control.state().sentence);
+                  running.start();
+                  wrong.unless(running.control->state().condition == Condition::EmergencyStop, "restarted");
+                  return wrong.said();
+                },
+                {}, 90.0),
+            "");
 }
 
-TEST(LinuxcncReal, TouchesComeWithTheErrorAndWithoutItOnceCompensated) {
-  withPrivateControl([] {
-    Wrong wrong;
-    RunningControl running;
-    LinuxcncControl& control = *running.control;
-    HalCommands truth;
-    truth.start();
-    control.switchOn(true);
-    const auto um = [&](double z) { return 1e3 * (z + 100.0); };
-    const double without = um(touchedZ(running.run(touch_floor)));
-    wrong.unless(std::abs(without) < 1.1, fmt::format("no error: {} um", without));
-    truth.setSignals({{"error-z", -0.05}});  // the tool is 50 um longer: a probe reads +50
-    const double with = um(touchedZ(running.run(touch_floor)));
-    wrong.unless(std::abs(with - 50.0) < 1.1, fmt::format("error: {} um", with));
-    control.openChannel(false);
-    const auto applied = [&] {
-      CompensationStatus status;
-      for (int i = 0; i < 200 && !(status.watched && std::abs(status.applied_um.z() - 50.0) < 0.01); ++i) {
-        status = control.compensate({0.0, 0.0, 50.0});
-        ::usleep(50000);
-      }
-      return status.watched && std::abs(status.applied_um.z() - 50.0) < 0.01;
-    };
-    // While it is kept alive; the position that the control shows does not know of it.
-    const auto touched = [&] {
-      control.start(running.approved(touch_floor));
-      while (!control.state().ready()) {
-        (void)control.compensate({0.0, 0.0, 50.0});
-        ::usleep(50000);
-      }
-      return um(touchedZ(control.printed()));
-    };
-    wrong.unless(applied(), "not applied");
-    const double compensated = touched();
-    wrong.unless(std::abs(compensated) < 1.1, fmt::format("compensated: {} um", compensated));
-    // The operator switches the machine off. The channel is opened anew, as a driver does that comes back.
-    control.close();
-    {
-      LinuxcncShell operators({});
-      operators.connect({});
-      wrong.unless(operators.set("enable EMCTOO") && operators.set("machine off"), "the operator is refused");
-    }
-    control.connect({});
-    wrong.unless(waitUntil([&] { return control.state().condition == ControlState::Condition::Off; }, 5.0),
-                 "off: " + control.state().sentence);
-    control.switchOn(true);
-    control.openChannel(false);
-    wrong.unless(applied(), "not applied after off and on");
-    const double again = touched();
-    wrong.unless(std::abs(again) < 1.1, fmt::format("compensated after off and on: {} um", again));
-    return wrong.said();
-  });
+TEST_F(LinuxcncReal, TouchesComeWithTheErrorAndWithoutItOnceCompensated) {
+  EXPECT_EQ(
+      isolated(
+          [] {
+            Wrong wrong;
+            RunningControl running;
+            LinuxcncControl& control = *running.control;
+            HalCommands truth;
+            truth.start();
+            control.switchOn(true);
+            const auto um = [&](double z) { return 1e3 * (z + 100.0); };
+            const double without = um(touchedZ(running.run(touch_floor)));
+            wrong.unless(std::abs(without) < 1.1, fmt::format("no error: {} um", without));
+            truth.setSignals({{"error-z", -0.05}});  // the tool is 50 um longer: a probe reads +50
+            const double with = um(touchedZ(running.run(touch_floor)));
+            wrong.unless(std::abs(with - 50.0) < 1.1, fmt::format("error: {} um", with));
+            control.openChannel(false);
+            const auto applied = [&] {
+              CompensationStatus status;
+              for (int i = 0; i < 200 && !(status.watched && std::abs(status.applied_um.z() - 50.0) < 0.01); ++i) {
+                status = control.compensate({0.0, 0.0, 50.0});
+                ::usleep(50000);
+              }
+              return status.watched && std::abs(status.applied_um.z() - 50.0) < 0.01;
+            };
+            // While it is kept alive; the position that the control shows does not know of it.
+            const auto touched = [&] {
+              control.start(running.approved(touch_floor));
+              while (!control.state().ready()) {
+                (void)control.compensate({0.0, 0.0, 50.0});
+                ::usleep(50000);
+              }
+              return um(touchedZ(control.printed()));
+            };
+            wrong.unless(applied(), "not applied");
+            const double compensated = touched();
+            wrong.unless(std::abs(compensated) < 1.1, fmt::format("compensated: {} um", compensated));
+            // The operator switches the machine off. The channel is opened anew, as a driver does that comes back.
+            control.close();
+            {
+              LinuxcncShell operators({});
+              operators.connect({});
+              wrong.unless(operators.set("enable EMCTOO") && operators.set("machine off"), "the operator is refused");
+            }
+            control.connect({});
+            wrong.unless(waitUntil([&] { return control.state().condition == ControlState::Condition::Off; }, 5.0),
+                         "off: " + control.state().sentence);
+            control.switchOn(true);
+            control.openChannel(false);
+            wrong.unless(applied(), "not applied after off and on");
+            const double again = touched();
+            wrong.unless(std::abs(again) < 1.1, fmt::format("compensated after off and on: {} um", again));
+            return wrong.said();
+          },
+          {}, 60.0),
+      "");
 }
 
 /// What the drives add after the driver has fallen silent for long enough.
@@ -238,12 +249,12 @@ std::string silence(bool hold, double expected_um) {
   return wrong.said();
 }
 
-TEST(LinuxcncReal, SilenceFadesToZero) {
-  withPrivateControl([] { return silence(false, 0.0); });
+TEST_F(LinuxcncReal, SilenceFadesToZero) {
+  EXPECT_EQ(isolated([] { return silence(false, 0.0); }, {}, 60.0), "");
 }
 
-TEST(LinuxcncReal, SilenceHoldsWhereThatWasChosen) {
-  withPrivateControl([] { return silence(true, 20.0); });
+TEST_F(LinuxcncReal, SilenceHoldsWhereThatWasChosen) {
+  EXPECT_EQ(isolated([] { return silence(true, 20.0); }, {}, 60.0), "");
 }
 
 /// 0.5 um per mm along Z.
@@ -278,33 +289,37 @@ std::string touchedWithTable(LinuxcncTable table, double sign, double least_um, 
   return wrong.said();
 }
 
-TEST(LinuxcncReal, StaticTablesOfBothTypesTakeTheErrorAway) {
-  withPrivateControl([] { return touchedWithTable(LinuxcncTable::ActualPositions, 1.0, -1.1, 0.1); });
-  withPrivateControl([] { return touchedWithTable(LinuxcncTable::Trim, 1.0, -1.1, 0.1); });
+TEST_F(LinuxcncReal, StaticTablesOfBothTypesTakeTheErrorAway) {
+  EXPECT_EQ(isolated([] { return touchedWithTable(LinuxcncTable::ActualPositions, 1.0, -1.1, 0.1); }, {}, 60.0), "");
+  EXPECT_EQ(isolated([] { return touchedWithTable(LinuxcncTable::Trim, 1.0, -1.1, 0.1); }, {}, 60.0), "");
 }
 
-TEST(LinuxcncReal, ATableWithItsSignTurnedWouldDoubleTheError) {
-  withPrivateControl([] { return touchedWithTable(LinuxcncTable::ActualPositions, -1.0, 98.0, 101.0); });
-  withPrivateControl([] { return touchedWithTable(LinuxcncTable::Trim, -1.0, 98.0, 101.0); });
+TEST_F(LinuxcncReal, ATableWithItsSignTurnedWouldDoubleTheError) {
+  EXPECT_EQ(isolated([] { return touchedWithTable(LinuxcncTable::ActualPositions, -1.0, 98.0, 101.0); }, {}, 60.0), "");
+  EXPECT_EQ(isolated([] { return touchedWithTable(LinuxcncTable::Trim, -1.0, 98.0, 101.0); }, {}, 60.0), "");
 }
 
-TEST(LinuxcncReal, TheControlLimitsWhatItIsTold) {
-  withPrivateControl([] {
-    Wrong wrong;
-    ControlConfiguration configuration = cornerInTheMiddle();
-    configuration.limit_mm = 0.03;
-    configuration.speed_mm_s = 0.1;
-    RunningControl running(configuration);
-    running.control->switchOn(true);
-    running.control->openChannel(false);
-    CompensationStatus status;
-    for (int i = 0; i < 40; ++i) {
-      status = running.control->compensate({0.0, 0.0, -500.0});
-      ::usleep(50000);
-    }
-    wrong.unless(std::abs(status.applied_um.z() + 30.0) < 0.01, fmt::format("{} um", status.applied_um.z()));
-    return wrong.said();
-  });
+TEST_F(LinuxcncReal, TheControlLimitsWhatItIsTold) {
+  EXPECT_EQ(isolated(
+                [] {
+                  Wrong wrong;
+                  ControlConfiguration configuration = cornerInTheMiddle();
+                  configuration.limit_mm = 0.03;
+                  configuration.speed_mm_s = 0.1;
+                  RunningControl running(configuration);
+                  running.control->switchOn(true);
+                  running.control->openChannel(false);
+                  CompensationStatus status;
+                  for (int i = 0; i < 40; ++i) {
+                    status = running.control->compensate({0.0, 0.0, -500.0});
+                    ::usleep(50000);
+                  }
+                  wrong.unless(std::abs(status.applied_um.z() + 30.0) < 0.01,
+                               fmt::format("{} um", status.applied_um.z()));
+                  return wrong.said();
+                },
+                {}, 60.0),
+            "");
 }
 
 }  // namespace

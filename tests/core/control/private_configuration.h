@@ -14,6 +14,7 @@
 #include "core/control/linuxcnc_control.h"
 #include "core/control/private_control.h"
 #include "tests/core/connect/collected.h"
+#include "tests/core/control/on_private_control.h"
 
 namespace spindrift::testing {
 
@@ -74,11 +75,5 @@ struct RunningControl {
   std::unique_ptr<LinuxcncProcess> process;
   std::unique_ptr<LinuxcncControl> control;
 };
-
-/// Runs the body where a private control can be had: what it returns is what was wrong, empty for nothing.
-inline void withPrivateControl(const std::function<std::string()>& body, double limit_s = 60.0) {
-  if (const std::string why = whyNoPrivateControl(); !why.empty()) GTEST_SKIP() << why;
-  EXPECT_EQ(isolated(body, {}, limit_s), "");
-}
 
 }  // namespace spindrift::testing
