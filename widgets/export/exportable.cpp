@@ -56,12 +56,14 @@ Exportable exportableOf(const QString& name, Plot* plot) {
           [plot](const QString& file) { plot->exportTo(file); }};
 }
 
+QImage exportedPicture(View3D* view) {
+  const LightColours light;
+  const FileUnits units;
+  return view->picture(view->size().expandedTo({800, 600}), picture_ratio);
+}
+
 Exportable exportableOf(const QString& name, View3D* view) {
-  return {name, {QStringLiteral("png")}, [view](const QString& file) {
-            const LightColours light;
-            const FileUnits units;
-            savePicture(view->picture(view->size().expandedTo({800, 600}), picture_ratio), file);
-          }};
+  return {name, {QStringLiteral("png")}, [view](const QString& file) { savePicture(exportedPicture(view), file); }};
 }
 
 Exportable exportableOf(const QString& name, const ImageView* view) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <QDialog>
+#include <QImage>
 #include <QString>
 #include <QStringList>
 #include <functional>
@@ -35,6 +36,8 @@ struct Exportable {
 [[nodiscard]] Exportable exportableOf(const QString& name, Plot* plot);
 [[nodiscard]] Exportable exportableOf(const QString& name, View3D* view);
 [[nodiscard]] Exportable exportableOf(const QString& name, const ImageView* view);
+/// What a file of a 3D view holds: light colours, units of files, fine enough for print.
+[[nodiscard]] QImage exportedPicture(View3D* view);
 /// A table as CSV: the texts of its display role (numbers as they are shown are kept exactly in Qt::UserRole).
 [[nodiscard]] Exportable exportableOf(const QString& name, const QAbstractItemModel* model);
 [[nodiscard]] QString tableCsv(const QAbstractItemModel& model);

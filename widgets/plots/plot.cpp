@@ -104,6 +104,7 @@ Plot::Plot(QWidget* parent) : QWidget(parent), plot_(new QCustomPlot(this)) {
   plot_->installEventFilter(this);
   plot_->setMouseTracking(true);
   plot_->hide();
+  setFocusPolicy(Qt::ClickFocus);
   for (QCPAxis* axis : {plot_->xAxis, plot_->yAxis}) {
     QSharedPointer<Ticker> ticker(new Ticker);
     ticker->setTickCount(most_ticks);
@@ -644,15 +645,7 @@ QString Plot::csv() const {
   return text;
 }
 
-void Plot::exportTo(const QString& file) {
-  const QString lower = file.toLower();
-  const int width = std::max(this->width(), 640);
-  const int height = std::max(this->height(), 400);
-  bool written = false;
-  if (lower.endsWith(QLatin1String(".csv"))) {
-    writeFileAtomically(file.toStdString(), csv().toStdString());
-    return;
-  }
+void Plot::drawForFile(const std::function<void(const QSize& size)>& draw) {
   const LightColours light;
   const bool other_units = shownUnits() != UnitChoice{};
   const FileUnits units;
@@ -661,29 +654,47 @@ void Plot::exportTo(const QString& file) {
     stale_ = true;
   }
   drawIfStale();
-  if (lower.endsWith(QLatin1String(".svg"))) {
-    QSvgGenerator generator;
-    generator.setFileName(file);
-    generator.setSize({width, height});
-    generator.setViewBox(QRect(0, 0, width, height));
-    QCPPainter painter;
-    if (painter.begin(&generator)) {
-      painter.setMode(QCPPainter::pmVectorized);
-      plot_->toPainter(&painter, width, height);
-      painter.end();
-      written = true;
-    }
-  } else if (lower.endsWith(QLatin1String(".pdf"))) {
-    written = plot_->savePdf(file, width, height);
-  } else {
-    written = plot_->savePng(file, width, height, picture_ratio);
-  }
+  draw(size().expandedTo({640, 400}));
   if (other_units) {
     QTimer::singleShot(0, this, [this] {
       rebuild();
       replotSoon();
     });
   }
+}
+
+QImage Plot::picture() {
+  QImage drawn;
+  drawForFile(
+      [&](const QSize& size) { drawn = plot_->toPixmap(size.width(), size.height(), picture_ratio).toImage(); });
+  return drawn;
+}
+
+void Plot::exportTo(const QString& file) {
+  const QString lower = file.toLower();
+  if (lower.endsWith(QLatin1String(".csv"))) {
+    writeFileAtomically(file.toStdString(), csv().toStdString());
+    return;
+  }
+  bool written = false;
+  drawForFile([&](const QSize& size) {
+    if (lower.endsWith(QLatin1String(".svg"))) {
+      QSvgGenerator generator;
+      generator.setFileName(file);
+      generator.setSize(size);
+      generator.setViewBox(QRect({0, 0}, size));
+      QCPPainter painter;
+      if (!painter.begin(&generator)) return;
+      painter.setMode(QCPPainter::pmVectorized);
+      plot_->toPainter(&painter, size.width(), size.height());
+      painter.end();
+      written = true;
+    } else if (lower.endsWith(QLatin1String(".pdf"))) {
+      written = plot_->savePdf(file, size.width(), size.height());
+    } else {
+      written = plot_->savePng(file, size.width(), size.height(), picture_ratio);
+    }
+  });
   if (!written) throw InputError({file.toStdString(), ""}, "the picture could not be written.");
 }
 

@@ -3,11 +3,13 @@
 // bands for uncertainty, shaded spans. Drag pans, wheel zooms, double-click shows everything. QCustomPlot inside.
 #pragma once
 
+#include <QImage>
 #include <QPointF>
 #include <QRectF>
 #include <QString>
 #include <QStringList>
 #include <QWidget>
+#include <functional>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -85,6 +87,8 @@ class Plot : public QWidget {
 
   /// By the ending: .png, .svg, .pdf (and .csv for the numbers). Throws InputError.
   void exportTo(const QString& file);
+  /// What exportTo() writes as .png.
+  [[nodiscard]] QImage picture();
   [[nodiscard]] QString csv() const;
   [[nodiscard]] bool empty() const { return series_.empty(); }
   /// Where the names of the marks in view stand, pixels of this widget.
@@ -111,6 +115,8 @@ class Plot : public QWidget {
   bool eventFilter(QObject* watched, QEvent* event) override;
 
  private:
+  /// Calls `draw` with the size of a picture for a file, in light colours and the units of files.
+  void drawForFile(const std::function<void(const QSize& size)>& draw);
   void rebuild();
   void restyle();
   void placeLegend();

@@ -8,8 +8,10 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <set>
 
+#include "core/base/error.h"
 #include "widgets/theme/theme.h"
 
 namespace spindrift::gui {
@@ -27,11 +29,15 @@ class PageView::Sheet : public QWidget {
  public:
   std::shared_ptr<ReportPages> pages;
   double scale = 1.0;
+  std::vector<ReportPages::Match> matches;
+  std::optional<std::size_t> pointed_out;  ///< of the matches
 
   void setPages(std::shared_ptr<ReportPages> now, int width) {
     if (pages != nullptr) pages->disconnect(this);
     pages = std::move(now);
     pictures_.clear();
+    matches.clear();
+    pointed_out.reset();
     if (pages != nullptr) {
       connect(pages.get(), &ReportPages::pageDrawn, this, [this](int page, const QImage& picture) {
         asked_.erase(page);
@@ -53,15 +59,22 @@ class PageView::Sheet : public QWidget {
   [[nodiscard]] bool drawing() const { return !asked_.empty(); }
   [[nodiscard]] int pageHeight() const { return static_cast<int>(std::lround(ReportPages::page_height * scale)); }
   [[nodiscard]] int top(int page) const { return gap + page * (pageHeight() + gap); }
+  [[nodiscard]] QRect areaOf(int page) const {
+    const int page_width = static_cast<int>(std::lround(ReportPages::page_width * scale));
+    return {(width() - page_width) / 2, top(page), page_width, pageHeight()};
+  }
+  [[nodiscard]] QRectF areaOf(const ReportPages::Match& match) const {
+    const QRect page = areaOf(match.page);
+    return {page.x() + match.area.x() * page.width(), page.y() + match.area.y() * page.height(),
+            match.area.width() * page.width(), match.area.height() * page.height()};
+  }
 
  protected:
   void paintEvent(QPaintEvent* event) override {
     QPainter painter(this);
     painter.setRenderHint(QPainter::SmoothPixmapTransform);
-    const int page_width = static_cast<int>(std::lround(ReportPages::page_width * scale));
-    const int left = (width() - page_width) / 2;
     for (int page = 0; page < count(); ++page) {
-      const QRect area(left, top(page), page_width, pageHeight());
+      const QRect area = areaOf(page);
       if (!area.intersects(event->rect())) continue;
       painter.fillRect(area, Qt::white);
       const auto found = pictures_.find(page);
@@ -72,9 +85,24 @@ class PageView::Sheet : public QWidget {
       painter.setBrush(Qt::NoBrush);
       painter.drawRect(area.adjusted(-1, -1, 0, 0));
     }
+    paintMatches(painter, event->rect());
   }
 
  private:
+  /// As with a marker: the text stays readable. The one that is pointed out has a frame as well.
+  void paintMatches(QPainter& painter, const QRect& shown) const {
+    static const QColor marker(255, 213, 79);
+    for (std::size_t i = 0; i < matches.size(); ++i) {
+      const QRectF area = areaOf(matches[i]).adjusted(-1, -1, 1, 1);
+      if (!area.intersects(shown)) continue;
+      painter.setCompositionMode(QPainter::CompositionMode_Multiply);
+      painter.fillRect(area, marker);
+      painter.setCompositionMode(QPainter::CompositionMode_SourceOver);
+      if (i != pointed_out) continue;
+      painter.setPen(QPen(QColor(180, 83, 9), 2));
+      painter.drawRect(area.adjusted(-1, -1, 1, 1));
+    }
+  }
   void ask(int page, const QSize& size) {
     if (asked_.insert(page).second) pages->draw(page, size, devicePixelRatioF());
   }
@@ -113,6 +141,26 @@ bool PageView::drawing() const {
 
 void PageView::goToPage(int page) {
   verticalScrollBar()->setValue(sheet_->top(page) - gap);
+}
+
+void PageView::setMatches(std::vector<ReportPages::Match> matches) {
+  sheet_->matches = std::move(matches);
+  sheet_->pointed_out.reset();
+  sheet_->update();
+}
+
+const std::vector<ReportPages::Match>& PageView::matches() const {
+  return sheet_->matches;
+}
+
+void PageView::goToMatch(std::size_t index) {
+  SPINDRIFT_ASSERT(index < sheet_->matches.size(), "one of the matches");
+  sheet_->pointed_out = index;
+  const QRectF area = sheet_->areaOf(sheet_->matches[index]);
+  const int at = verticalScrollBar()->value();
+  if (area.top() < at + gap || area.bottom() > at + viewport()->height() - gap)
+    verticalScrollBar()->setValue(static_cast<int>(area.center().y()) - viewport()->height() / 3);
+  sheet_->update();
 }
 
 int PageView::currentPage() const {

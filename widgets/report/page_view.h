@@ -4,6 +4,7 @@
 
 #include <QScrollArea>
 #include <memory>
+#include <vector>
 
 #include "widgets/report/report_pages.h"
 
@@ -19,6 +20,11 @@ class PageView : public QScrollArea {
   [[nodiscard]] bool drawing() const;
   void goToPage(int page);
   [[nodiscard]] int currentPage() const;
+  /// Places of a text, marked on the pages; none is pointed out yet.
+  void setMatches(std::vector<ReportPages::Match> matches);
+  [[nodiscard]] const std::vector<ReportPages::Match>& matches() const;
+  /// Points one out and brings it into sight.
+  void goToMatch(std::size_t index);
 
  Q_SIGNALS:
   void pageChanged(int page);

@@ -34,6 +34,7 @@ ReportPages::ReportPages(std::filesystem::path file) : worker_(new QObject) {
 
 ReportPages::~ReportPages() {
   forgetRequests();
+  ++searches_;
   thread_.quit();
   thread_.wait();
 }
@@ -75,6 +76,39 @@ void ReportPages::draw(int page, const QSize& size, double ratio) {
         const QImage picture = wanted ? pictureOf(*document_, page, size, ratio) : QImage();
         QMetaObject::invokeMethod(
             this, [this, page, picture] { Q_EMIT pageDrawn(page, picture); }, Qt::QueuedConnection);
+      },
+      Qt::QueuedConnection);
+}
+
+void ReportPages::search(const QString& text) {
+  const int asked = ++searches_;
+  QMetaObject::invokeMethod(
+      worker_, [this, text, asked] { searchFrom(0, text, {}, asked); }, Qt::QueuedConnection);
+}
+
+void ReportPages::searchFrom(int page, const QString& text, std::vector<Match> matches, int asked) {
+  if (asked != searches_) return;
+  if (document_ == nullptr || text.isEmpty() || page >= document_->numPages()) {
+    QMetaObject::invokeMethod(
+        this,
+        [this, asked, matches = std::move(matches)] {
+          if (asked == searches_) Q_EMIT found(matches);
+        },
+        Qt::QueuedConnection);
+    return;
+  }
+  if (const std::unique_ptr<Poppler::Page> here(document_->page(page)); here != nullptr) {
+    const QSizeF size = here->pageSizeF();
+    for (const QRectF& area : here->search(text, Poppler::Page::IgnoreCase)) {
+      matches.push_back({page, QRectF(area.x() / size.width(), area.y() / size.height(), area.width() / size.width(),
+                                      area.height() / size.height())});
+    }
+  }
+  // What was asked to be drawn meanwhile comes first.
+  QMetaObject::invokeMethod(
+      worker_,
+      [this, page, text, asked, matches = std::move(matches)]() mutable {
+        searchFrom(page + 1, text, std::move(matches), asked);
       },
       Qt::QueuedConnection);
 }

@@ -3,10 +3,13 @@
 //
 //   GUI thread     ReportPages(file) ----------> opened()   draw(page) ----------> pageDrawn(page, picture)
 //   its thread              read                                   draw into a picture
+//
+// A text is looked for there too, a page at a time, so that pages in sight go on being drawn.
 #pragma once
 
 #include <QImage>
 #include <QObject>
+#include <QRectF>
 #include <QSize>
 #include <QString>
 #include <QThread>
@@ -32,6 +35,11 @@ class ReportPages : public QObject {
     QString title;
     int page = 0;
   };
+  /// A place where a text stands.
+  struct Match {
+    int page = 0;
+    QRectF area;  ///< parts of the page: 0 ... 1 from the left and from the top
+  };
 
   /// Begins to read the PDF `file`; opened() tells when everything below can be asked for.
   explicit ReportPages(std::filesystem::path file);
@@ -48,19 +56,26 @@ class ReportPages : public QObject {
   void draw(int page, const QSize& size, double device_pixel_ratio);
   /// What was asked for and has not been begun is no longer wanted.
   void forgetRequests() { ++generation_; }
+  /// Looks for a text on all pages, in upper or lower case. Takes the place of a search that still runs.
+  void search(const QString& text);
 
  Q_SIGNALS:
   void opened();
   /// A null picture: the request was forgotten.
   void pageDrawn(int page, const QImage& picture);
+  /// Everywhere, from the first page on.
+  void found(const std::vector<ReportPages::Match>& matches);
 
  private:
-  void read(const std::filesystem::path& file);  // on the thread
+  // On the thread.
+  void read(const std::filesystem::path& file);
+  void searchFrom(int page, const QString& text, std::vector<Match> matches, int asked);
 
   QThread thread_;
   QObject* worker_;
   std::unique_ptr<Poppler::Document> document_;  ///< of the thread only
   std::atomic<int> generation_ = 0;
+  std::atomic<int> searches_ = 0;
   QString failure_;
   int page_count_ = 0;
   std::vector<Section> sections_;

@@ -39,6 +39,7 @@
 #include "widgets/common/preferences.h"
 #include "widgets/common/question.h"
 #include "widgets/export/exportable.h"
+#include "widgets/export/picture_habits.h"
 #include "widgets/jobs/activity_dialog.h"
 #include "widgets/jobs/job_bar.h"
 #include "widgets/jobs/task_run.h"
@@ -193,6 +194,7 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent), workflow_(session
           [this] { theme_button_->setIcon(icon(theme().kind == ThemeKind::Dark ? "sun" : "moon")); });
 
   QCoreApplication::instance()->installEventFilter(this);
+  (void)new PictureHabits(this);
   QSettings settings;
   const QStringList recent = recentSessions();
   setAcceptDrops(true);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The manual beside the work: its pages, and its chapters to go to. It is the file that the package brings.
+// The manual beside the work: its pages, its chapters to go to, a text to look for. It is the file that the package
+// brings.
 #pragma once
 
 #include <QDialog>
@@ -9,6 +10,8 @@
 #include "core/base/job_context.h"
 #include "widgets/report/report_pages.h"
 
+class QLabel;
+class QLineEdit;
 class QListWidget;
 
 namespace spindrift::gui {
@@ -33,15 +36,31 @@ class ManualWindow : public QDialog {
   /// One a chapter, once the file is opened.
   [[nodiscard]] QListWidget* chapters() const { return chapters_; }
   [[nodiscard]] PageView* pages() const { return view_; }
+  /// What is typed here is looked for (Ctrl+F); Return goes to the next place, Shift+Return to the one before.
+  [[nodiscard]] QLineEdit* findField() const { return find_; }
+  /// "3 of 17", "Not found"; empty while nothing is looked for.
+  [[nodiscard]] QString findText() const;
 
  Q_SIGNALS:
   /// Empty: it can be read.
   void opened(const QString& failure);
+  /// All places of what is in the field are known.
+  void searched();
+
+ protected:
+  bool eventFilter(QObject* watched, QEvent* event) override;
 
  private:
   void showPages(const std::shared_ptr<ReportPages>& pages);
+  void showMatches(const std::vector<ReportPages::Match>& matches);
+  /// To the next or the previous place, round and round.
+  void step(int by);
 
   std::shared_ptr<ReportPages> opening_;
+  std::shared_ptr<ReportPages> pages_;
+  QLineEdit* find_;
+  QLabel* place_;
+  std::size_t match_ = 0;
   QListWidget* chapters_;
   PageView* view_;
 };

@@ -33,6 +33,43 @@ TEST(ManualWindow, ChaptersLeadToTheirPages) {
   EXPECT_GT(window.pages()->currentPage(), 20);
 }
 
+TEST(ManualWindow, ATextIsFoundOnEveryPageAndGoneThrough) {
+  const testing::TempFolder folder;
+  const std::string file = (folder / "manual.pdf").string();
+  Report report("Title", "Version");
+  report.section("first").paragraph("One Zwiebelfisch here.");
+  for (int i = 0; i < 200; ++i) report.paragraph("A line that fills the page.");
+  report.section("last").paragraph("Another zwiebelfisch, and a ZWIEBELFISCH.");
+  writeFileAtomically(file, pdfOf(report).bytes);
+  ManualWindow window(QString::fromStdString(file));
+  QSignalSpy opened(&window, &ManualWindow::opened);
+  QSignalSpy searched(&window, &ManualWindow::searched);
+  window.show();
+  ASSERT_TRUE(opened.wait(20'000));
+  const auto lookFor = [&](const QString& text) {
+    window.findField()->setText(text);
+    return searched.wait(20'000);
+  };
+  ASSERT_TRUE(lookFor(QStringLiteral("zwiebelfisch")));
+  const std::vector<ReportPages::Match> matches = window.pages()->matches();
+  ASSERT_EQ(matches.size(), 3U);
+  EXPECT_EQ(matches[0].page, 0);
+  EXPECT_GT(matches[1].page, 1);
+  for (const ReportPages::Match& match : matches) EXPECT_TRUE(QRectF(0, 0, 1, 1).contains(match.area));
+  EXPECT_EQ(window.findText(), QStringLiteral("1 of 3"));
+  QTest::keyClick(window.findField(), Qt::Key_Return);
+  EXPECT_EQ(window.findText(), QStringLiteral("2 of 3"));
+  EXPECT_EQ(window.pages()->currentPage(), matches[1].page);
+  QTest::keyClick(window.findField(), Qt::Key_Return, Qt::ShiftModifier);
+  QTest::keyClick(window.findField(), Qt::Key_Return, Qt::ShiftModifier);
+  EXPECT_EQ(window.findText(), QStringLiteral("3 of 3")) << "round and round";
+  ASSERT_TRUE(lookFor(QStringLiteral("onion fish")));
+  EXPECT_EQ(window.findText(), QStringLiteral("Not found"));
+  ASSERT_TRUE(lookFor(QString()));
+  EXPECT_EQ(window.findText(), QString());
+  EXPECT_TRUE(window.pages()->matches().empty());
+}
+
 TEST(ManualWindow, AFileThatIsNoneIsSaid) {
   const testing::TempFolder folder;
   ManualWindow window(QString::fromStdString(folder.write("manual.pdf", "nothing").string()));
