@@ -270,10 +270,10 @@ void addStudies(CLI::App& app, CommandLine& line) {
                                                {"expected_from_touch_noise", r.expected},
                                                {"cycles", r.cycles}};
           const ErrorParameter parameter = describedParameter(r.name);
-          result.summary += fmt::format("{:<5} {:<18} (k = {:g}; touch noise alone: {:.2g} {}) {}\n", parameter.symbol,
-                                        withUncertainty(r.repeatability, r.standard_uncertainty, parameter.unit),
-                                        a->options.coverage_factor, printed(r.expected), printedUnit(parameter.unit),
-                                        parameter.meaning);
+          result.summary += fmt::format(
+              "{:<10} {:<18} (k = {:g}; touch noise alone: {:.2g} {}) {}\n", parameter.symbolWithIso(),
+              withUncertainty(r.repeatability, r.standard_uncertainty, parameter.unit), a->options.coverage_factor,
+              printed(r.expected), printedUnit(parameter.unit), parameter.meaning);
         }
         if (study.status != FitStatus::Converged) {
           result.summary = study.message + "\n";
@@ -330,7 +330,7 @@ void addStudies(CLI::App& app, CommandLine& line) {
           result.summary = fmt::format(
               "{} ({}): rms difference {:.3g} {}, largest {:.3g} {}, {} within two standard uncertainties, correlation "
               "{:.4f}\n",
-              parameter.symbol, parameter.meaning, printed(c.rms), unit, printed(c.largest), unit,
+              parameter.symbolWithIso(), parameter.meaning, printed(c.rms), unit, printed(c.largest), unit,
               c.judged > 0 ? fmt::format("{:.0f} % of {}", 100.0 * c.within_two_sigma, countOf(c.judged, "cycle"))
                            : std::string("no cycle"),
               printed(c.correlation));
@@ -365,8 +365,8 @@ void addStudies(CLI::App& app, CommandLine& line) {
           per[bias.names[p]] = bias.bias_per_um_per_m[p];
           const ErrorParameter parameter = describedParameter(bias.names[p]);
           result.summary +=
-              fmt::format("  {:<5} by {:+7.3f} {:<4}  {}\n", parameter.symbol, printed(bias.bias_per_um_per_m[p]),
-                          printedUnit(parameter.unit), parameter.meaning);
+              fmt::format("  {:<10} by {:+7.3f} {:<4}  {}\n", parameter.symbolWithIso(),
+                          printed(bias.bias_per_um_per_m[p]), printedUnit(parameter.unit), parameter.meaning);
         }
         result.json["bias_per_um_per_m"] = per;
         if (!s->growth.empty()) {
@@ -384,9 +384,9 @@ void addStudies(CLI::App& app, CommandLine& line) {
           result.json["with_stable_length"] = cyclesJson(more.hole_cycles.front());
           const HoleCycleResult& r = more.hole_cycles.front();
           const CycleParameter& last = r.parameters.back().back();
-          result.summary +=
-              fmt::format("with the bar as stable length, {} in {}: {}\n", describedParameter(r.names.back()).symbol,
-                          r.cycles.back(), withUncertainty(last.value, last.standard_uncertainty, "um/m"));
+          result.summary += fmt::format("with the bar as stable length, {} in {}: {}\n",
+                                        describedParameter(r.names.back()).symbolWithIso(), r.cycles.back(),
+                                        withUncertainty(last.value, last.standard_uncertainty, "um/m"));
         }
         return result;
       });

@@ -117,9 +117,9 @@ struct GenicamCamera::Device {
       arv_camera_set_exposure_time_auto(camera, ARV_AUTO_OFF, nullptr);
       arv_camera_get_exposure_time_bounds(camera, &least, &most, &fault);
       fault.check("exposure");
-      within(*settings.exposure_us, least, most, "an exposure in us of");
+      within(*settings.exposure_us, least, most, "an exposure in µs of");
       arv_camera_set_exposure_time(camera, *settings.exposure_us, &fault);
-      fault.check(fmt::format("exposure {:g} us", *settings.exposure_us));
+      fault.check(fmt::format("exposure {:g} µs", *settings.exposure_us));
     }
     if (settings.gain) {
       arv_camera_set_gain_auto(camera, ARV_AUTO_OFF, nullptr);

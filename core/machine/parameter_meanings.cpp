@@ -82,6 +82,10 @@ std::vector<ErrorParameter> table() {
 
 }  // namespace
 
+std::string ErrorParameter::symbolWithIso() const {
+  return iso_symbol.empty() || iso_symbol == symbol ? symbol : fmt::format("{} ({})", symbol, iso_symbol);
+}
+
 std::span<const ErrorParameter> errorParameters() {
   static const std::vector<ErrorParameter> all = table();
   return all;

@@ -17,6 +17,9 @@ struct ErrorParameter {
   std::string iso_symbol;  ///< of ISO 230-1:2012 ("EA0S"); empty where the standard has none
   std::string unit;        ///< as in files, "/" for "per": "um", "urad", "um/m"
   std::string meaning;     ///< one line, English
+
+  /// "hX (EA0S)": as printed, with the symbol of ISO 230-1 where that is another one.
+  [[nodiscard]] std::string symbolWithIso() const;
 };
 
 /// All of them: six errors at the origin of the table, six of each linear axis, squareness, hole artefact, ball

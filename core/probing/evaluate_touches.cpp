@@ -55,7 +55,7 @@ void addCommon(const CycleEvaluation& evaluation, const TouchEvaluation& all, co
     const CycleParameter& parameter = evaluation.parameters[last][p];
     const ErrorParameter known = describedParameter(evaluation.names[p]);
     out.summary +=
-        fmt::format("  {:<5} {:<18} {}\n", known.symbol,
+        fmt::format("  {:<10} {:<18} {}\n", known.symbolWithIso(),
                     parameter.determined ? withUncertainty(parameter.value, parameter.standard_uncertainty, known.unit)
                                          : std::string("not determined"),
                     known.meaning);

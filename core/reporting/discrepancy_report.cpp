@@ -474,7 +474,7 @@ void addDiscrepancyStory(Report& document, const DiscrepancyReportData& result, 
   if (result.suggestion) {
     const MeasurementSuggestion& next = *result.suggestion;
     document.subsection("Measure next");
-    document.paragraph(withEffectTitles(fmt::format("To tell {}: {}.", next.separates, next.conditions)));
+    document.paragraph(withEffectTitles(fmt::format("To distinguish {}: {}.", next.separates, next.conditions)));
     std::vector<ReportRow> steps;
     for (const ProgrammeStep& step : next.programme) {
       steps.push_back(

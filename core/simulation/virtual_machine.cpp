@@ -49,7 +49,8 @@ std::vector<std::string> causesOutsideCatalogue() {
 
 std::string whyNotPossible(std::string_view id, const MachineDescription& machine) {
   if (!known(id)) {
-    return "is not an effect of the catalogue (EFFECTS.md) and none of " + joinedList(causesOutsideCatalogue());
+    return "is not an effect of the catalogue (spindrift-cli effects lists it) and none of " +
+           joinedList(causesOutsideCatalogue());
   }
   const auto starts = [&](std::string_view stem) { return id.starts_with(stem); };
   if (starts("fixture.slip.")) {

@@ -100,9 +100,8 @@ void LoopPlan::validate() const {
       return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '-' || c == '.';
     };
     if (touch.point.empty() || !std::all_of(touch.point.begin(), touch.point.end(), plain))
-      refuse(
-          fmt::format("the name of the point \"{}\" cannot stand in a programme; allowed: letters, digits, _, - and .",
-                      touch.point));
+      refuse(fmt::format("the name of the point \"{}\" cannot stand in a program; allowed: letters, digits, _, - and .",
+                         touch.point));
     const Eigen::Vector3d way = touch.target_mm - touch.before_mm;
     const int axis = axisIndex(touch.component);
     if (isRotation(touch.component) || std::abs(std::abs(way[axis]) - way.norm()) > 1e-9 || way.norm() < 1e-3)

@@ -86,7 +86,7 @@ std::string summaryOf(const NineParameterFit& fit) {
   for (int i = 0; i < nine_parameter_count; ++i) {
     const ErrorParameter parameter = parameterOf(i);
     text +=
-        fmt::format("  {:<5} {:<18} {}\n", parameter.symbol,
+        fmt::format("  {:<10} {:<18} {}\n", parameter.symbolWithIso(),
                     fit.determined(i) ? withUncertainty(fit.parameters(i), fit.standardUncertainty(i), parameter.unit)
                                       : "not determined",
                     parameter.meaning);
@@ -114,7 +114,7 @@ std::string summaryOf(const NineParameterFit& fit, const TableOrderChoice& choic
   for (std::size_t i = nine_parameter_count; i < names.size(); ++i) {
     const auto e = static_cast<Eigen::Index>(i);
     text +=
-        fmt::format("  {:<5} {}\n", names[i].substr(0, names[i].size() - 3),
+        fmt::format("  {:<10} {}\n", names[i].substr(0, names[i].size() - 3),
                     withUncertainty(choice.model->parameters()(e), std::sqrt(choice.model->covariance()(e, e)), "um"));
   }
   return text;
@@ -149,7 +149,7 @@ std::string summaryOf(const NineParameterComparison& comparison) {
       const bool equal = !(sigma > 1e-6 * comparison.a.standardUncertainty(i));
       value = equal ? "equal" : withUncertainty(comparison.difference(i), sigma, parameterOf(i).unit);
     }
-    text += fmt::format("  {:<5} {:<18} {}{}\n", parameterOf(i).symbol, value, parameterOf(i).meaning,
+    text += fmt::format("  {:<10} {:<18} {}{}\n", parameterOf(i).symbolWithIso(), value, parameterOf(i).meaning,
                         differs ? ": differs" : "");
   }
   if (std::isnan(comparison.p_value_all)) return text;

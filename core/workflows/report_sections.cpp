@@ -392,7 +392,7 @@ void addIso230(Report& document, const Campaign& campaign) {
     document.paragraph(fmt::format("Over {:.1f} h, ambient temperature range {:.2f} K.",
                                    result.etve->duration_s / seconds_per_hour, result.etve->temperature_range_K));
     document.table({"Component", "Range", "Range per K", "Slope on the ambient temperature"}, rows,
-                   "Parameters of the environmental variation test");
+                   "Parameters of the ETVE test");
   }
   document.figure(*result.diagram, "Readings of the test over time");
   for (const std::string& note : result.notes) document.paragraph(note);

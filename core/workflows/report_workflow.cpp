@@ -33,13 +33,13 @@ void addFittedParameters(Report& document, const NineParameterFit& fit, const st
   const nlohmann::json json = toJson(fit);
   for (const auto& [name, parameter] : json.at("parameters").items()) {
     const bool known = parameter.is_object() && parameter.at("value").is_number();
-    rows.push_back({titleWithUnit(name),
+    rows.push_back({titleWithUnit(name), describedParameter(name).iso_symbol,
                     known ? withUncertainty(parameter.at("value").get<double>(),
                                             parameter.at("standard_uncertainty").get<double>(), "")
                           : std::string("not determined"),
                     parameterMeaning(name)});
   }
-  document.table({"Parameter", "Value ± standard uncertainty", "Meaning"}, rows,
+  document.table({"Parameter", "ISO 230-1", "Value ± standard uncertainty", "Meaning"}, rows,
                  fmt::format("Nine-parameter model of {}", state));
 }
 

@@ -638,7 +638,7 @@
     </message>
     <message>
         <source>, spindle up to {:g} rpm</source>
-        <translation>, Spindel bis {:g} rpm</translation>
+        <translation>, Spindel bis {:g} min⁻¹</translation>
     </message>
     <message>
         <source>, time constant {:.0f} min</source>
@@ -874,7 +874,7 @@
     </message>
     <message>
         <source>An interval of {} days is not allowed; allowed: 0 (not said) to 36500.</source>
-        <translation>Ein Intervall von {} Tagen ist nicht zulässig; zulässig: 0 (keine Angabe) bis 36500.</translation>
+        <translation>Ein Intervall von {} Tagen ist unzulässig; zulässig: 0 (keine Angabe) bis 36500.</translation>
     </message>
     <message>
         <source>Angles of the profiler that the calibration leaves open ({}) make up to {:.2g} µm of the stated uncertainty of a displacement ({} in {}). An angle measured otherwise, such as with a dial indicator along the axis, goes into profiler.mounting_angles_rad of machine.json.</source>
@@ -918,7 +918,7 @@
     </message>
     <message>
         <source>C alone at {:g} rpm</source>
-        <translation>C allein mit {:g} rpm</translation>
+        <translation>C allein mit {:g} min⁻¹</translation>
     </message>
     <message>
         <source>C at rest</source>
@@ -1634,7 +1634,7 @@
     </message>
     <message>
         <source>The clouds do not fit: root mean square distance {:.3g} mm.</source>
-        <translation>Die Punktwolken passen nicht: mittlerer quadratischer Abstand {:.3g} mm.</translation>
+        <translation>Die Punktwolken passen nicht: quadratischer Mittelwert des Abstands {:.3g} mm.</translation>
     </message>
     <message>
         <source>The column warms as a whole and grows from its base: the head rises, more so the higher it stands on the column.</source>
@@ -1886,7 +1886,7 @@
     </message>
     <message>
         <source>The place of the reference hole</source>
-        <translation>Die Lage des Referenzlochs</translation>
+        <translation>Die Lage der Referenzbohrung</translation>
     </message>
     <message>
         <source>The plan has no {} left to take; it is kept aside.</source>
@@ -1978,7 +1978,7 @@
     </message>
     <message>
         <source>The reference hole is &quot;{}&quot;; allowed: H1 to H{}.</source>
-        <translation>Das Referenzloch ist „{}“; zulässig: H1 bis H{}.</translation>
+        <translation>Die Referenzbohrung ist „{}“; zulässig: H1 bis H{}.</translation>
     </message>
     <message>
         <source>The registration did not settle within {} iterations.</source>
@@ -2074,7 +2074,7 @@
     </message>
     <message>
         <source>The spindle is still turning ({:.0f} rpm): wait until it stands still.</source>
-        <translation>Die Spindel dreht noch ({:.0f} rpm): warten, bis sie steht.</translation>
+        <translation>Die Spindel dreht noch ({:.0f} min⁻¹): warten, bis sie steht.</translation>
     </message>
     <message>
         <source>The spindle shaft and housing grow along Z as the bearings heat them; the heat follows the speed and reaches the structure with one or two first-order time constants.</source>
@@ -2270,7 +2270,7 @@
     </message>
     <message>
         <source>[time in s, speed in rpm]</source>
-        <translation>[Zeit in s, Drehzahl in rpm]</translation>
+        <translation>[Zeit in s, Drehzahl in min⁻¹]</translation>
     </message>
     <message>
         <source>[x, y, width, height] in pixels, width and height greater than zero</source>
@@ -2420,7 +2420,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>a circle of radius {} µm at ({}, {}) µm from an ellipse&apos;s centre touches the ellipse.</source>
-        <translation>ein Kreis mit Radius {} µm bei ({}, {}) um vom Zentrum einer Ellipse berührt die Ellipse.</translation>
+        <translation>ein Kreis mit Radius {} µm bei ({}, {}) µm vom Zentrum einer Ellipse berührt die Ellipse.</translation>
     </message>
     <message>
         <source>a column has no name; allowed: one name per column.</source>
@@ -2444,11 +2444,11 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>a distance of {:g} mm between positions is not allowed; allowed: 0 or more.</source>
-        <translation>ein Abstand von {:g} mm zwischen Positionen ist nicht zulässig; zulässig: 0 oder mehr.</translation>
+        <translation>ein Abstand von {:g} mm zwischen Positionen ist unzulässig; zulässig: 0 oder mehr.</translation>
     </message>
     <message>
         <source>a drift limit of {} µm/h is not allowed; allowed: greater than zero.</source>
-        <translation>eine Driftgrenze von {} µm/h ist nicht zulässig; zulässig: größer als null.</translation>
+        <translation>eine Driftgrenze von {} µm/h ist unzulässig; zulässig: größer als null.</translation>
     </message>
     <message>
         <source>a driver that log.csv holds</source>
@@ -2512,7 +2512,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>a high-pass over {} cycles is not allowed; allowed: an odd number from 3.</source>
-        <translation>ein Hochpass über {} Zyklen ist nicht zulässig; zulässig: eine ungerade Zahl ab 3.</translation>
+        <translation>ein Hochpass über {} Zyklen ist unzulässig; zulässig: eine ungerade Zahl ab 3.</translation>
     </message>
     <message>
         <source>a time constant has no effect on the output; use fewer time constants or inputs.</source>
@@ -2700,7 +2700,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>a pitch of {} µm is not allowed; 20 ... 100000 µm are.</source>
-        <translation>ein Raster von {} µm ist nicht zulässig; zulässig: 20 ... 100000 µm.</translation>
+        <translation>ein Raster von {} µm ist unzulässig; zulässig: 20 ... 100000 µm.</translation>
     </message>
     <message>
         <source>a printed model needs at least one a, two b with b0 not zero, and a positive period.</source>
@@ -2963,7 +2963,7 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>ein Fehler eines Effekts der Simulation</translation>
     </message>
     <message>
-        <source>an exposure in us of</source>
+        <source>an exposure in µs of</source>
         <translation>eine Belichtung in µs von</translation>
     </message>
     <message>
@@ -3044,7 +3044,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>approach direction (0, 0, 0) is not allowed; allowed: a unit vector towards the material.</source>
-        <translation>Anfahrrichtung (0, 0, 0) ist nicht zulässig; zulässig: ein Einheitsvektor zum Material hin.</translation>
+        <translation>Anfahrrichtung (0, 0, 0) ist unzulässig; zulässig: ein Einheitsvektor zum Material hin.</translation>
     </message>
     <message>
         <source>approach direction ({}, {}, {}) has length {:.4g}; allowed: a unit vector.</source>
@@ -3524,15 +3524,15 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>digit {} leaves its ellipse at ({}, {}) µm.</source>
-        <translation>Ziffer {} verlässt ihre Ellipse bei ({}, {}) um.</translation>
+        <translation>Ziffer {} verlässt ihre Ellipse bei ({}, {}) µm.</translation>
     </message>
     <message>
         <source>digit {} touches its neighbour digit at ({}, {}) µm.</source>
-        <translation>Ziffer {} berührt ihre Nachbarziffer bei ({}, {}) um.</translation>
+        <translation>Ziffer {} berührt ihre Nachbarziffer bei ({}, {}) µm.</translation>
     </message>
     <message>
         <source>direction {} is not allowed; allowed: -1, 0 or +1.</source>
-        <translation>Richtung {} ist nicht zulässig; zulässig: -1, 0 oder +1.</translation>
+        <translation>Richtung {} ist unzulässig; zulässig: -1, 0 oder +1.</translation>
     </message>
     <message>
         <source>Distance {} differs from the certificate by {:.2f} mm: are balls swapped or is this another artefact?</source>
@@ -3560,7 +3560,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>dof {} is not allowed; allowed: 1, 2 or 3.</source>
-        <translation>dof {} ist nicht zulässig; zulässig: 1, 2 oder 3.</translation>
+        <translation>dof {} ist unzulässig; zulässig: 1, 2 oder 3.</translation>
     </message>
     <message>
         <source>drift of the rotary table along {}</source>
@@ -3755,7 +3755,7 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Ausdehnung des Tisches</translation>
     </message>
     <message>
-        <source>exposure {:g} us</source>
+        <source>exposure {:g} µs</source>
         <translation>Belichtung {:g} µs</translation>
     </message>
     <message>
@@ -3804,7 +3804,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>false_alarm_rate {} is not allowed; allowed: above 0, at most 0.2.</source>
-        <translation>false_alarm_rate {} ist nicht zulässig; zulässig: über 0, höchstens 0,2.</translation>
+        <translation>false_alarm_rate {} ist unzulässig; zulässig: über 0, höchstens 0,2.</translation>
     </message>
     <message>
         <source>feature &quot;{}&quot; is not on artefact {}; allowed: {}.</source>
@@ -4188,7 +4188,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>holds no {}; a plan needs at least one.</source>
-        <translation>enthält keine {}; ein Plan braucht mindestens eine.</translation>
+        <translation>enthält keine {}; ein Plan braucht mindestens einen.</translation>
     </message>
     <message>
         <source>holds nothing measured over time: no displacement in the log, no cycles, no point with {} or more observations; allowed: measure the same points again and again.</source>
@@ -4236,7 +4236,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>index {} is not allowed; allowed: a whole number.</source>
-        <translation>Index {} ist nicht zulässig; zulässig: eine ganze Zahl.</translation>
+        <translation>Index {} ist unzulässig; zulässig: eine ganze Zahl.</translation>
     </message>
     <message>
         <source>input {} is a copy of the output; leave it out.</source>
@@ -4375,8 +4375,8 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>ist keine Komponente; zulässig: EX, EY, EZ, EA, EB oder EC.</translation>
     </message>
     <message>
-        <source>is not an effect of the catalogue (EFFECTS.md) and none of {}</source>
-        <translation>ist kein Effekt des Katalogs (EFFECTS.md) und keiner von {}</translation>
+        <source>is not an effect of the catalogue (spindrift-cli effects lists it) and none of {}</source>
+        <translation>ist kein Effekt des Katalogs (spindrift-cli effects zählt sie auf) und keiner von {}</translation>
     </message>
     <message>
         <source>is not a file name</source>
@@ -4536,7 +4536,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>it moved by {:.0f} µm since {}, more than thermal drift explains</source>
-        <translation>sie hat sich seit {1} µm {0:.0f} µm verlagert, mehr als thermische Drift erklärt</translation>
+        <translation>sie hat sich seit {1} um {0:.0f} µm verlagert, mehr als thermische Drift erklärt</translation>
     </message>
     <message>
         <source>it triggered {:.3g} mm from where {} should be touched</source>
@@ -4692,7 +4692,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>level {} is not allowed; allowed: a probability between 0 and 1.</source>
-        <translation>Niveau {} ist nicht zulässig; zulässig: eine Wahrscheinlichkeit zwischen 0 und 1.</translation>
+        <translation>Niveau {} ist unzulässig; zulässig: eine Wahrscheinlichkeit zwischen 0 und 1.</translation>
     </message>
     <message>
         <source>libcurl does not start.</source>
@@ -4760,7 +4760,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>max_effects {} is not allowed; allowed: 0 to 10.</source>
-        <translation>max_effects {} ist nicht zulässig; zulässig: 0 bis 10.</translation>
+        <translation>max_effects {} ist unzulässig; zulässig: 0 bis 10.</translation>
     </message>
     <message>
         <source>mean of the training range</source>
@@ -4872,11 +4872,11 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>needs a rotary axis (rotary)</source>
-        <translation>braucht eine Drehachse (rotary)</translation>
+        <translation>braucht eine Rundachse (rotary)</translation>
     </message>
     <message>
         <source>needs a rotary axis that turns the workpiece across the bar, but the chain &quot;{}&quot; has none; allowed: for example &quot;V [w-C&apos;-X&apos;-b-Y-Z-(C1)-t]&quot;.</source>
-        <translation>braucht eine Drehachse, die das Werkstück quer zur Leiste dreht, aber die Kette „{}“ hat keine; zulässig: zum Beispiel &quot;V [w-C&apos;-X&apos;-b-Y-Z-(C1)-t]&quot;.</translation>
+        <translation>braucht eine Rundachse, die das Werkstück quer zur Leiste dreht, aber die Kette „{}“ hat keine; zulässig: zum Beispiel &quot;V [w-C&apos;-X&apos;-b-Y-Z-(C1)-t]&quot;.</translation>
     </message>
     <message>
         <source>needs a stylus; allowed: &quot;styli&quot; in the machine file.</source>
@@ -4892,7 +4892,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>needs the centre of the rotary axis {}; allowed: &quot;rotary&quot;:[{{&quot;name&quot;:&quot;{}&quot;,&quot;centre_mm&quot;:[x,y,z]}}] in the machine file.</source>
-        <translation>braucht das Zentrum der Drehachse {}; zulässig: &quot;rotary&quot;:[{{&quot;name&quot;:&quot;{}&quot;,&quot;centre_mm&quot;:[x,y,z]}}] in der Maschinendatei.</translation>
+        <translation>braucht das Zentrum der Rundachse {}; zulässig: &quot;rotary&quot;:[{{&quot;name&quot;:&quot;{}&quot;,&quot;centre_mm&quot;:[x,y,z]}}] in der Maschinendatei.</translation>
     </message>
     <message>
         <source>needs the pitch of the screw (drive.pitch_mm)</source>
@@ -5380,7 +5380,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>probing a hole bar needs a machine with a rotary axis (rotary).</source>
-        <translation>das Antasten einer Lochleiste braucht eine Maschine mit Drehachse (rotary).</translation>
+        <translation>das Antasten einer Lochleiste braucht eine Maschine mit Rundachse (rotary).</translation>
     </message>
     <message>
         <source>programs need a table that rotates about Z.</source>
@@ -5404,7 +5404,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>rank tolerance {} is not allowed; allowed: between 0 and 1.</source>
-        <translation>Rangtoleranz {} ist nicht zulässig; zulässig: zwischen 0 und 1.</translation>
+        <translation>Rangtoleranz {} ist unzulässig; zulässig: zwischen 0 und 1.</translation>
     </message>
     <message>
         <source>reading scans</source>
@@ -5536,7 +5536,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>row number {} is not allowed; allowed: 1 to {} (rows of {}).</source>
-        <translation>Zeilennummer {} ist nicht zulässig; zulässig: 1 bis {} (Zeilen von {}).</translation>
+        <translation>Zeilennummer {} ist unzulässig; zulässig: 1 bis {} (Zeilen von {}).</translation>
     </message>
     <message>
         <source>row tens upper left, row units upper right, column tens lower left, column units lower right; up = +Y (increasing row), so rows increase upwards when the pattern is seen from above</source>
@@ -5632,11 +5632,11 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>sigma {} is not allowed; allowed: a standard uncertainty greater than zero, in {}.</source>
-        <translation>sigma {} ist nicht zulässig; zulässig: eine Standardunsicherheit größer als null, in {}.</translation>
+        <translation>sigma {} ist unzulässig; zulässig: eine Standardunsicherheit größer als null, in {}.</translation>
     </message>
     <message>
         <source>sigma {} is not allowed; allowed: greater than zero.</source>
-        <translation>sigma {} ist nicht zulässig; zulässig: größer als null.</translation>
+        <translation>sigma {} ist unzulässig; zulässig: größer als null.</translation>
     </message>
     <message>
         <source>simulation with effects</source>
@@ -5836,7 +5836,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>test level {} is not allowed; allowed: between 0 and 1.</source>
-        <translation>Testniveau {} ist nicht zulässig; zulässig: zwischen 0 und 1.</translation>
+        <translation>Testniveau {} ist unzulässig; zulässig: zwischen 0 und 1.</translation>
     </message>
     <message>
         <source>text &quot;{}&quot; follows a closing quote; allowed: a comma.</source>
@@ -6492,11 +6492,11 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>the spindle alone at {:g} rpm</source>
-        <translation>die Spindel allein mit {:g} rpm</translation>
+        <translation>die Spindel allein mit {:g} min⁻¹</translation>
     </message>
     <message>
         <source>the spindle alone at {:g} rpm with {} at {:.0f} mm</source>
-        <translation>die Spindel allein mit {:g} rpm mit {} bei {:.0f} mm</translation>
+        <translation>die Spindel allein mit {:g} min⁻¹ mit {} bei {:.0f} mm</translation>
     </message>
     <message>
         <source>the spindle never runs in this record; allowed: a test with a speed above zero.</source>
@@ -6504,11 +6504,11 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>the spindle turns ({:g} rpm at {:g} s), but an ETVE test is of a machine at rest; allowed: a log without a running spindle, or the test &quot;spindle&quot;.</source>
-        <translation>die Spindel dreht ({:g} rpm bei {:g} s), aber eine ETVE-Prüfung gilt der ruhenden Maschine; zulässig: ein Protokoll ohne laufende Spindel oder die Prüfung &quot;spindle&quot;.</translation>
+        <translation>die Spindel dreht ({:g} min⁻¹ bei {:g} s), aber eine ETVE-Prüfung gilt der ruhenden Maschine; zulässig: ein Protokoll ohne laufende Spindel oder die Prüfung &quot;spindle&quot;.</translation>
     </message>
     <message>
         <source>the spindle {} at {:g} s, but at {:g} rpm for most of its run: these are several steps of speed, not one test; allowed: a record of one step, or --range FROM:TO around it.</source>
-        <translation>die Spindel {} bei {:g} s, aber die meiste Zeit mit {:g} rpm: das sind mehrere Drehzahlstufen, nicht eine Prüfung; zulässig: eine Aufzeichnung einer Stufe oder --range FROM:TO um sie herum.</translation>
+        <translation>die Spindel {} bei {:g} s, aber die meiste Zeit mit {:g} min⁻¹: das sind mehrere Drehzahlstufen, nicht eine Prüfung; zulässig: eine Aufzeichnung einer Stufe oder --range FROM:TO um sie herum.</translation>
     </message>
     <message>
         <source>the stable length has {} values for {} cycles; allowed: one per cycle.</source>
@@ -6860,7 +6860,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>touch number {} is not allowed; allowed: 0, 1, 2, ...</source>
-        <translation>Antastnummer {} ist nicht zulässig; zulässig: 0, 1, 2, ...</translation>
+        <translation>Antastnummer {} ist unzulässig; zulässig: 0, 1, 2, ...</translation>
     </message>
     <message>
         <source>touch {} of {} is there already; the first one is kept</source>
@@ -6896,7 +6896,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>turns at {:g} rpm</source>
-        <translation>dreht mit {:g} rpm</translation>
+        <translation>dreht mit {:g} min⁻¹</translation>
     </message>
     <message>
         <source>two bounds in s, not negative and the smaller first, such as [60, 20000]</source>
@@ -7144,7 +7144,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>{:g} rpm is beyond the spindle&apos;s limit, {:g} rpm</source>
-        <translation>{:g} rpm überschreitet die Grenze der Spindel, {:g} rpm</translation>
+        <translation>{:g} min⁻¹ überschreitet die Grenze der Spindel, {:g} min⁻¹</translation>
     </message>
     <message>
         <source>{:g} s of silence; allowed: up to {:g} s</source>
@@ -7524,7 +7524,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>{} is not allowed; allowed: {}.</source>
-        <translation>{} ist nicht zulässig; zulässig: {}.</translation>
+        <translation>{} ist unzulässig; zulässig: {}.</translation>
     </message>
     <message>
         <source>{} is not connected.</source>
@@ -8064,15 +8064,15 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>{} {} is not allowed; allowed: deviations up to {:g} {} in size.</source>
-        <translation>{} {} ist nicht zulässig; zulässig: Abweichungen bis {:g} {} Betrag.</translation>
+        <translation>{} {} ist unzulässig; zulässig: Abweichungen bis {:g} {} Betrag.</translation>
     </message>
     <message>
         <source>{} {} is not allowed; allowed: greater than zero.</source>
-        <translation>{} {} ist nicht zulässig; zulässig: größer als null.</translation>
+        <translation>{} {} ist unzulässig; zulässig: größer als null.</translation>
     </message>
     <message>
         <source>{} {} is not allowed; allowed: {} to {}.</source>
-        <translation>{} {} ist nicht zulässig; zulässig: {} bis {}.</translation>
+        <translation>{} {} ist unzulässig; zulässig: {} bis {}.</translation>
     </message>
     <message>
         <source>duplicate {} {} of fiducial {} in state {}, first in {}; allowed: one row each.</source>
@@ -8420,7 +8420,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>--set &quot;{}&quot; is not allowed; allowed: NAME=NUMBER, for example EC0Y_urad=20.</source>
-        <translation>--set „{}“ ist nicht zulässig; zulässig: NAME=NUMBER, zum Beispiel EC0Y_urad=20.</translation>
+        <translation>--set „{}“ ist unzulässig; zulässig: NAME=NUMBER, zum Beispiel EC0Y_urad=20.</translation>
     </message>
     <message>
         <source>2 and more</source>
@@ -8602,7 +8602,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>seed {} is not allowed; allowed: 0 to {}.</source>
-        <translation>Startwert {} ist nicht zulässig; zulässig: 0 bis {}.</translation>
+        <translation>Startwert {} ist unzulässig; zulässig: 0 bis {}.</translation>
     </message>
     <message>
         <source>size {} along {}</source>
@@ -8706,7 +8706,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>{} named, which is nested with it</source>
-        <translation>{} benannt, eines ist im anderen eingebettet</translation>
+        <translation>{} benannt; einer ist im anderen enthalten</translation>
     </message>
     <message>
         <source>{} of the diamond</source>
@@ -8878,7 +8878,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>positioning error of the X axis per metre, from the centre of the rotary axis</source>
-        <translation>Positionierabweichung der X-Achse je Meter, ab der Mitte der Drehachse</translation>
+        <translation>Positionierabweichung der X-Achse je Meter, ab der Mitte der Rundachse</translation>
     </message>
     <message>
         <source>positioning error of the {} axis</source>
@@ -8958,7 +8958,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>variance {} of row {} is not allowed; allowed: greater than zero.</source>
-        <translation>Die Varianz {} der Zeile {} ist nicht erlaubt; erlaubt: größer als null.</translation>
+        <translation>Die Varianz {} der Zeile {} ist unzulässig; zulässig: größer als null.</translation>
     </message>
     <message>
         <source>a list of at least {} entries</source>
@@ -9089,7 +9089,7 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>die Datei hat {} Bytes; höchstens {} sind zulässig.</translation>
     </message>
     <message>
-        <source>the name of the point &quot;{}&quot; cannot stand in a programme; allowed: letters, digits, _, - and .</source>
+        <source>the name of the point &quot;{}&quot; cannot stand in a program; allowed: letters, digits, _, - and .</source>
         <translation>der Name des Punkts „{}“ kann nicht in einem Programm stehen; zulässig: Buchstaben, Ziffern, _, - und .</translation>
     </message>
     <message>
@@ -9398,7 +9398,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>a position to be kept is listed twice; allowed: each once.</source>
-        <translation>Eine beizubehaltende Position ist doppelt angegeben; erlaubt: jede einmal.</translation>
+        <translation>Eine beizubehaltende Position ist doppelt angegeben; zulässig: jede einmal.</translation>
     </message>
     <message>
         <source>The expansion coefficient of {} is not stated: its lengths against the certificate are not corrected for {:.1f} K.</source>
@@ -9418,7 +9418,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>{} {} is not allowed; allowed: {:g} to {:g} mm/min.</source>
-        <translation>{} {} ist nicht erlaubt; zulässig: {:g} bis {:g} mm/min.</translation>
+        <translation>{} {} ist unzulässig; zulässig: {:g} bis {:g} mm/min.</translation>
     </message>
     <message>
         <source>{}{:g} is not known here</source>
@@ -9426,11 +9426,11 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>The options ask for something that this version of the library does not know; allowed: 0 there.</source>
-        <translation>Die Optionen verlangen etwas, das diese Version der Bibliothek nicht kennt; erlaubt: dort 0.</translation>
+        <translation>Die Optionen verlangen etwas, das diese Version der Bibliothek nicht kennt; zulässig: dort 0.</translation>
     </message>
     <message>
         <source>The virtual profiler takes more than a million points per mm; allowed: fewer points in a profile or profiles further apart.</source>
-        <translation>Der virtuelle Profilsensor nimmt mehr als eine Million Punkte je mm auf; erlaubt: weniger Punkte im Profil oder größere Profilabstände.</translation>
+        <translation>Der virtuelle Profilsensor nimmt mehr als eine Million Punkte je mm auf; zulässig: weniger Punkte im Profil oder größere Profilabstände.</translation>
     </message>
     <message>
         <source>Calculating the compensation</source>
@@ -9446,7 +9446,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>Checking the repeatability</source>
-        <translation>Wiederholgenauigkeit wird geprüft</translation>
+        <translation>Wiederholpräzision wird geprüft</translation>
     </message>
     <message>
         <source>Checking the scans</source>
@@ -9518,7 +9518,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>the check of the repeatability</source>
-        <translation>die Prüfung der Wiederholgenauigkeit</translation>
+        <translation>die Prüfung der Wiederholpräzision</translation>
     </message>
     <message>
         <source>the comparison of before and after</source>
@@ -9610,39 +9610,39 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>The machine was at rest at constant temperatures: the drift is that of the instrument.</source>
-        <translation>Die Maschine stand, und ihre Temperaturen hielten sich inzwischen: es driftet das Messgerät.</translation>
+        <translation>Die Maschine stand still bei konstanten Temperaturen: Die Drift ist die des Messgeräts.</translation>
     </message>
     <message>
         <source>in {} of {} rows the combination of inputs is outside that of the training (by a factor of up to {:.1f}); the interval is wider there.</source>
-        <translation>in {} von {} Zeilen stehen die Eingänge zusammen wie nie im Training (bis zu {:.1f}-mal außerhalb seines Bereichs); dort ist das Intervall breiter.</translation>
+        <translation>in {} von {} Zeilen liegt die Kombination der Eingänge außerhalb des Trainings (bis zum {:.1f}-Fachen); dort ist das Intervall breiter.</translation>
     </message>
     <message>
         <source>it deviates by {:.1f} µm from all other touches ({:.0f} times the touch noise); excluded</source>
-        <translation>sie verfehlt um {:.1f} µm, was alle anderen Antastungen sagen ({:.0f}-mal das Antastrauschen); ausgelassen</translation>
+        <translation>sie weicht um {:.1f} µm von allen anderen Antastungen ab ({:.0f}-faches Antastrauschen); ausgeschlossen</translation>
     </message>
     <message>
         <source>its height deviates by {:.0f} µm from the {} other surface touches of {}; excluded</source>
-        <translation>ihre Höhe liegt {:.0f} µm neben dem, was die {} anderen Flächenantastungen von {} sagen; ausgelassen</translation>
+        <translation>ihre Höhe weicht um {:.0f} µm von den {} anderen Flächenantastungen von {} ab; ausgeschlossen</translation>
     </message>
     <message>
         <source>its height deviates by {:.0f} µm from the {} other surface touches</source>
-        <translation>ihre Höhe liegt {:.0f} µm neben dem, was die {} anderen Flächenantastungen sagen</translation>
+        <translation>ihre Höhe weicht um {:.0f} µm von den {} anderen Flächenantastungen ab</translation>
     </message>
     <message>
         <source>the log does not show whether it was at rest</source>
-        <translation>nichts im Protokoll sagt, ob sie stand</translation>
+        <translation>aus dem Protokoll geht nicht hervor, ob sie stillstand</translation>
     </message>
     <message>
         <source>{} measured {:+.1f} µm off the prediction, far beyond its uncertainty: used if the next cycle confirms it</source>
-        <translation>{} {:+.1f} µm neben der Vorhersage gemessen, weit außerhalb ihrer Unsicherheit: wird verwendet, wenn der nächste Zyklus dasselbe sagt</translation>
+        <translation>{} {:+.1f} µm neben der Vorhersage gemessen, weit außerhalb ihrer Unsicherheit: wird verwendet, wenn der nächste Zyklus sie bestätigt</translation>
     </message>
     <message>
         <source>{} measured {:+.2f} off the prediction, far beyond its uncertainty: used if the next measurement confirms it</source>
-        <translation>{} {:+.2f} neben der Vorhersage gemessen, weit außerhalb ihrer Unsicherheit: wird verwendet, wenn die nächste Messung dasselbe sagt</translation>
+        <translation>{} {:+.2f} neben der Vorhersage gemessen, weit außerhalb ihrer Unsicherheit: wird verwendet, wenn die nächste Messung sie bestätigt</translation>
     </message>
     <message>
         <source>{} and {} are collinear in the training and separate here: their effects cannot be distinguished from the training; vary one without the other there.</source>
-        <translation>{} und {} haben sich im Training gemeinsam bewegt und trennen sich hier: Welche davon was verursacht, sagt das Training nicht; dort einmal eine ohne die andere laufen lassen.</translation>
+        <translation>{} und {} sind im Training kollinear und trennen sich hier: Ihre Wirkungen sind aus dem Training nicht unterscheidbar; dort eine ohne die andere variieren.</translation>
     </message>
     <message>
         <source>, {:g} {} given: {}</source>
@@ -9686,11 +9686,11 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>&quot;{}&quot; is not an axis; allowed: X, Y or Z.</source>
-        <translation>„{}“ ist keine Achse; erlaubt: X, Y oder Z.</translation>
+        <translation>„{}“ ist keine Achse; zulässig: X, Y oder Z.</translation>
     </message>
     <message>
         <source>a detection unit of {:g} µm is not allowed; allowed: above 0.</source>
-        <translation>eine Erfassungseinheit von {:g} µm ist nicht erlaubt; erlaubt: über 0.</translation>
+        <translation>eine Erfassungseinheit von {:g} µm ist unzulässig; zulässig: über 0.</translation>
     </message>
     <message>
         <source>does not say over which axis its values are.</source>
@@ -9706,7 +9706,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>points {} to {} of {} are not allowed; allowed: 0 to 1023.</source>
-        <translation>die Punkte {} bis {} von {} sind nicht erlaubt; erlaubt: 0 bis 1023.</translation>
+        <translation>die Punkte {} bis {} von {} sind unzulässig; zulässig: 0 bis 1023.</translation>
     </message>
     <message>
         <source>table {} lacks its axes, its values or their distance.</source>
@@ -9718,7 +9718,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>{} is not allowed; allowed: -128 to 127.</source>
-        <translation>{} ist nicht erlaubt; erlaubt: -128 bis 127.</translation>
+        <translation>{} ist unzulässig; zulässig: -128 bis 127.</translation>
     </message>
     <message>
         <source>Fanuc pitch error data of {}</source>
@@ -9738,7 +9738,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>a detection unit of {:g} µm is not allowed; allowed: 0.001 to 100.</source>
-        <translation>eine Erfassungseinheit von {:g} µm ist nicht erlaubt; erlaubt: 0,001 bis 100.</translation>
+        <translation>eine Erfassungseinheit von {:g} µm ist unzulässig; zulässig: 0,001 bis 100.</translation>
     </message>
     <message>
         <source>Program (G10 L50) with steps in detection units of {:g} µm from point to point, {}: a positive value moves the axis to {}, as stated. Points, distance and magnification are those of its head (parameters 3620 to 3624). It stands in place of the data that the control has. Beyond what was measured it is extrapolated; the ISO 230-1 tables say where.</source>
@@ -9854,7 +9854,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>covariance {} of rows {} and {} is not allowed; allowed: -{:.6g} to {:.6g}, the product of their standard uncertainties.</source>
-        <translation>Kovarianz {} der Zeilen {} und {} ist nicht zulässig; zulässig: -{:.6g} bis {:.6g}, das Produkt ihrer Standardunsicherheiten.</translation>
+        <translation>Kovarianz {} der Zeilen {} und {} ist unzulässig; zulässig: -{:.6g} bis {:.6g}, das Produkt ihrer Standardunsicherheiten.</translation>
     </message>
     <message>
         <source>$AN_CEC in mm, one table for each axis that is moved over the position of another: the deviation itself, {}, zero at the reference position; a positive value moves the axis in the negative direction. With the tables of $AA_ENC_COMP all displacements along the axes through the reference position are compensated; what depends on two axes together (the higher-order terms) is in no such table. It stands in place of the tables that the control has. Beyond what was measured it is extrapolated; the ISO 230-1 tables say where.</source>
@@ -9870,19 +9870,19 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>a standard uncertainty of {:g}; allowed: 0 or more.</source>
-        <translation>Standardunsicherheit {:g}; erlaubt: 0 oder mehr.</translation>
+        <translation>Standardunsicherheit {:g}; zulässig: 0 oder mehr.</translation>
     </message>
     <message>
         <source>a table angle of {:g}° is not allowed; allowed: {:g} to {:g}°.</source>
-        <translation>Der Tischwinkel {:g}° ist nicht erlaubt; erlaubt: {:g} bis {:g}°.</translation>
+        <translation>Der Tischwinkel {:g}° ist unzulässig; zulässig: {:g} bis {:g}°.</translation>
     </message>
     <message>
         <source>cannot be touched {:g} mm deep: the tip of stylus {} lies {:g} mm below the spindle reference, which stays {:g} mm above the bar; allowed: depth_mm up to {:g} mm.</source>
-        <translation>kann nicht {:g} mm tief angetastet werden: die Kugel des Tasters {} liegt {:g} mm unter der Spindelreferenz, die {:g} mm über der Leiste bleibt; erlaubt: depth_mm bis {:g} mm.</translation>
+        <translation>kann nicht {:g} mm tief angetastet werden: die Kugel des Tasters {} liegt {:g} mm unter der Spindelreferenz, die {:g} mm über der Leiste bleibt; zulässig: depth_mm bis {:g} mm.</translation>
     </message>
     <message>
         <source>the spindle reference goes to {:.2f} mm above the top of the bar; allowed: {:.2f} mm</source>
-        <translation>die Spindelreferenz fährt auf {:.2f} mm über der Oberseite der Leiste; erlaubt: {:.2f} mm</translation>
+        <translation>die Spindelreferenz fährt auf {:.2f} mm über der Oberseite der Leiste; zulässig: {:.2f} mm</translation>
     </message>
     <message>
         <source>compensation = minus the predicted deviation, to be added to the command; deviation = actual minus commanded, as the log measures it; rms_after is of measured deviation plus compensation, both about their mean over the rows that trained the model (over all rows where none did); reduction_percent is positive where the rms became smaller</source>
@@ -9982,7 +9982,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>Centre of rotation: algebraic circles through the track of each mark against the joint evaluation; short arcs pull the circles, they are shown for comparison and not used</source>
-        <translation>Drehmittelpunkt: algebraische Kreise durch die Bahn jeder Marke gegen die gemeinsame Auswertung; kurze Bögen ziehen an den Kreisen, sie dienen dem Vergleich und werden nicht verwendet</translation>
+        <translation>Drehzentrum: algebraische Kreise durch die Bahn jeder Marke gegen die gemeinsame Auswertung; kurze Bögen ziehen an den Kreisen, sie dienen dem Vergleich und werden nicht verwendet</translation>
     </message>
     <message>
         <source>Change / µm rms</source>
@@ -10138,7 +10138,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>Fitted states, peak-to-peak / µm</source>
-        <translation>Angepasste Zustände, Spanne / µm</translation>
+        <translation>Angepasste Zustände, Spitze-Spitze / µm</translation>
     </message>
     <message>
         <source>Fitted states, rms / µm</source>
@@ -10158,11 +10158,11 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>Growth of the artefact; EME combines both by their uncertainties</source>
-        <translation>Wachstum des Prüfkörpers; EME kombiniert beide nach ihren Unsicherheiten</translation>
+        <translation>Ausdehnung des Prüfkörpers; EME kombiniert beide nach ihren Unsicherheiten</translation>
     </message>
     <message>
         <source>Growth of the artefact; EME rests on the touches alone</source>
-        <translation>Wachstum des Prüfkörpers; EME beruht allein auf den Antastungen</translation>
+        <translation>Ausdehnung des Prüfkörpers; EME beruht allein auf den Antastungen</translation>
     </message>
     <message>
         <source>Head rotation in {}: closed forms against the joint evaluation; the closed forms take every translation for a rotation and are shown for comparison only</source>
@@ -10481,8 +10481,8 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Zeit / h</translation>
     </message>
     <message>
-        <source>To tell {}: {}.</source>
-        <translation>Um {} zu unterscheiden: {}.</translation>
+        <source>To distinguish {}: {}.</source>
+        <translation>Zur Unterscheidung von {}: {}.</translation>
     </message>
     <message>
         <source>Top</source>
@@ -10662,7 +10662,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>largest peak-to-peak of one series, {} / {}</source>
-        <translation>größte Spanne einer Reihe, {} / {}</translation>
+        <translation>größter Spitze-Spitze-Wert einer Reihe, {} / {}</translation>
     </message>
     <message>
         <source>laser profiler</source>
@@ -11105,8 +11105,8 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Über {:.1f} h, Spanne der Umgebungstemperatur {:.2f} K.</translation>
     </message>
     <message>
-        <source>Parameters of the environmental variation test</source>
-        <translation>Kenngrößen der Prüfung bei Änderung der Umgebungstemperatur</translation>
+        <source>Parameters of the ETVE test</source>
+        <translation>Parameter der ETVE-Prüfung</translation>
     </message>
     <message>
         <source>Parameters of the rotating spindle test</source>
@@ -11190,7 +11190,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>Step</source>
-        <translation>Schritt</translation>
+        <translation>Sprung</translation>
     </message>
     <message>
         <source>Step responses of the model, end value ± one standard uncertainty</source>
@@ -11542,7 +11542,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>is neither HTML nor PDF by its ending; allowed: a name that ends in .html or .pdf.</source>
-        <translation>ist nach seiner Endung weder HTML noch PDF; erlaubt: ein Name, der auf .html oder .pdf endet.</translation>
+        <translation>ist nach seiner Endung weder HTML noch PDF; zulässig: ein Name, der auf .html oder .pdf endet.</translation>
     </message>
     <message>
         <source>A part of this installation cannot be loaded ({}); install Spindrift again.</source>
@@ -11604,7 +11604,7 @@ geschrieben wird dann nichts. Unbekannte Spalten und Schlüssel werden übergang
 
 - **JSON**-Dokumente tragen `format` (in Klammern hinter jedem Titel) und `version` 1. Ein Wert, den es nicht gibt, ist `null`.
 - **CSV**: durch Kommas getrennt, Dezimalpunkt, eine Kopfzeile, Zeilen, die mit `#` beginnen, sind Kommentare; Text darf in doppelten Anführungszeichen stehen.
-- **Einheiten** stehen in den Namen. Positionen mm, Abweichungen um, kleine Winkel urad, Stellungen von Drehachsen deg, Ausdehnung um/m, Temperaturen
+- **Einheiten** stehen in den Namen. Positionen mm, Abweichungen um, kleine Winkel urad, Stellungen von Rundachsen deg, Ausdehnung um/m, Temperaturen
 degC, Zeiten s seit dem Beginn der Kampagne.
 - **Bezugssystem**: das Maschinenkoordinatensystem (MCF), rechtshändig, Achsen wie in ISO 841. `c_deg` ist die Drehung des Tisches um +Z,
 von oben gesehen gegen den Uhrzeigersinn, was immer die Steuerung zählt.
@@ -11763,7 +11763,7 @@ ihrem Ordner und führen nicht hinaus.
     </message>
     <message>
         <source>Batch</source>
-        <translation>Stapel</translation>
+        <translation>Batch-Auftrag</translation>
     </message>
     <message>
         <source>CSV that `compare-reference` holds against the probe.</source>
@@ -12047,7 +12047,7 @@ ihrem Ordner und führen nicht hinaus.
     </message>
     <message>
         <source>along the scan</source>
-        <translation>entlang der Aufnahme</translation>
+        <translation>entlang des Scans</translation>
     </message>
     <message>
         <source>alternatives; a list within the list acts together</source>
@@ -12279,7 +12279,7 @@ ihrem Ordner und führen nicht hinaus.
     </message>
     <message>
         <source>carriage where the scan starts</source>
-        <translation>Schlitten am Beginn der Aufnahme</translation>
+        <translation>Schlitten am Beginn des Scans</translation>
     </message>
     <message>
         <source>cell of a table</source>
@@ -12443,15 +12443,15 @@ ihrem Ordner und führen nicht hinaus.
     </message>
     <message>
         <source>coolant below the room</source>
-        <translation>Kühlmittel unter Raumtemperatur</translation>
+        <translation>Kühlschmierstoff unter Raumtemperatur</translation>
     </message>
     <message>
         <source>coolant is switched on and off</source>
-        <translation>Kühlmittel wird ein- und ausgeschaltet</translation>
+        <translation>Kühlschmierstoff wird ein- und ausgeschaltet</translation>
     </message>
     <message>
         <source>coolant on</source>
-        <translation>Kühlmittel ein</translation>
+        <translation>Kühlschmierstoff ein</translation>
     </message>
     <message>
         <source>correlated noise</source>
@@ -12479,7 +12479,7 @@ ihrem Ordner und führen nicht hinaus.
     </message>
     <message>
         <source>cycle, scan: artefact</source>
-        <translation>Zyklus, Aufnahme: Prüfkörper</translation>
+        <translation>Zyklus, Scan: Prüfkörper</translation>
     </message>
     <message>
         <source>cycle: number of touches that makes it complete</source>
@@ -12487,7 +12487,7 @@ ihrem Ordner und führen nicht hinaus.
     </message>
     <message>
         <source>data item there</source>
-        <translation>Datenelement dort</translation>
+        <translation>Datenpunkt dort</translation>
     </message>
     <message>
         <source>deviation</source>
@@ -12851,7 +12851,7 @@ ihrem Ordner und führen nicht hinaus.
     </message>
     <message>
         <source>height by which the profiler is lifted between calibration and scan</source>
-        <translation>Höhe, um die der Profilsensor zwischen Kalibrierung und Aufnahme angehoben wird</translation>
+        <translation>Höhe, um die der Profilsensor zwischen Kalibrierung und Scan angehoben wird</translation>
     </message>
     <message>
         <source>height of an image</source>
@@ -12883,7 +12883,7 @@ ihrem Ordner und führen nicht hinaus.
     </message>
     <message>
         <source>hole bar: reference hole from the centre of C at c = 0</source>
-        <translation>Lochleiste: Bezugsbohrung, vom Zentrum von C bei c = 0 aus</translation>
+        <translation>Lochleiste: Referenzbohrung, vom Zentrum von C bei c = 0 aus</translation>
     </message>
     <message>
         <source>hole bar: the hole that places it</source>
@@ -12963,7 +12963,7 @@ ihrem Ordner und führen nicht hinaus.
     </message>
     <message>
         <source>image: commanded position; scan: position of the carriage where it starts</source>
-        <translation>Bild: Sollposition; Aufnahme: Position des Schlittens an ihrem Beginn</translation>
+        <translation>Bild: Sollposition; Scan: Position des Schlittens an seinem Beginn</translation>
     </message>
     <message>
         <source>image: fiducial</source>
@@ -13247,11 +13247,11 @@ ihrem Ordner und führen nicht hinaus.
     </message>
     <message>
         <source>mqtt, linuxcnc: file that holds the password</source>
-        <translation>mqtt, linuxcnc: Datei mit dem Kennwort</translation>
+        <translation>mqtt, linuxcnc: Datei mit dem Passwort</translation>
     </message>
     <message>
         <source>mqtt, linuxcnc: variable of the environment that holds the password</source>
-        <translation>mqtt, linuxcnc: Umgebungsvariable mit dem Kennwort</translation>
+        <translation>mqtt, linuxcnc: Umgebungsvariable mit dem Passwort</translation>
     </message>
     <message>
         <source>mqtt: Sparkplug nodes are asked for all their values</source>
@@ -13271,7 +13271,7 @@ ihrem Ordner und führen nicht hinaus.
     </message>
     <message>
         <source>mqtt: topic told when the connection breaks</source>
-        <translation>mqtt: Thema, das beim Abbruch der Verbindung gemeldet wird</translation>
+        <translation>mqtt: Topic, das beim Abbruch der Verbindung gemeldet wird</translation>
     </message>
     <message>
         <source>mqtt: user</source>
@@ -13291,7 +13291,7 @@ ihrem Ordner und führen nicht hinaus.
     </message>
     <message>
         <source>name of the batch</source>
-        <translation>Name des Stapels</translation>
+        <translation>Name des Batch-Auftrags</translation>
     </message>
     <message>
         <source>name of the campaign</source>
@@ -13619,7 +13619,7 @@ ihrem Ordner und führen nicht hinaus.
     </message>
     <message>
         <source>position of the carriage where the scan starts</source>
-        <translation>Position des Schlittens am Beginn der Aufnahme</translation>
+        <translation>Position des Schlittens am Beginn des Scans</translation>
     </message>
     <message>
         <source>position of the fixed bearing, from which the screw expands</source>
@@ -13731,7 +13731,7 @@ ihrem Ordner und führen nicht hinaus.
     </message>
     <message>
         <source>rotary axis</source>
-        <translation>Drehachse</translation>
+        <translation>Rundachse</translation>
     </message>
     <message>
         <source>rotation of the camera</source>
@@ -13787,7 +13787,7 @@ ihrem Ordner und führen nicht hinaus.
     </message>
     <message>
         <source>scan of the calibration pocket</source>
-        <translation>Aufnahme der Kalibriertasche</translation>
+        <translation>Scan der Kalibriertasche</translation>
     </message>
     <message>
         <source>scatter of the tool, X and Y</source>
@@ -13847,7 +13847,7 @@ ihrem Ordner und führen nicht hinaus.
     </message>
     <message>
         <source>sign that the control gives to the rotary axis</source>
-        <translation>Vorzeichen, das die Steuerung der Drehachse gibt</translation>
+        <translation>Vorzeichen, das die Steuerung der Rundachse gibt</translation>
     </message>
     <message>
         <source>silence after which an item is given to another worker</source>
@@ -14251,7 +14251,7 @@ ihrem Ordner und führen nicht hinaus.
     </message>
     <message>
         <source>time of a scan; times as for touches</source>
-        <translation>Zeit einer Aufnahme; Zeiten wie bei touches</translation>
+        <translation>Zeit eines Scans; Zeiten wie bei touches</translation>
     </message>
     <message>
         <source>time of a touch</source>
@@ -14539,7 +14539,7 @@ ihrem Ordner und führen nicht hinaus.
     </message>
     <message>
         <source>whether the profiler moves with the error of the whole scan or of each profile</source>
-        <translation>ob sich der Profilsensor mit dem Fehler der ganzen Aufnahme oder jedes Profils bewegt</translation>
+        <translation>ob sich der Profilsensor mit dem Fehler des ganzen Scans oder jedes Profils bewegt</translation>
     </message>
     <message>
         <source>which body it stands for</source>
@@ -14603,7 +14603,7 @@ ihrem Ordner und führen nicht hinaus.
     </message>
     <message>
         <source>without user and password</source>
-        <translation>ohne Benutzer und Kennwort</translation>
+        <translation>ohne Benutzer und Passwort</translation>
     </message>
     <message>
         <source>words to numbers</source>
@@ -14702,7 +14702,7 @@ ihrem Ordner und führen nicht hinaus.
     </message>
     <message>
         <source>&lt;b&gt;Effects:&lt;/b&gt; the button beside &lt;i&gt;Search&lt;/i&gt; lists every effect this machine can have, with its physics, formula and shape. What is switched off is not named. &lt;i&gt;New effect&lt;/i&gt; writes one of your own: drivers are columns of the log, shapes are expressions in x, y, z; both are checked while you type. The campaign folder is never written to.</source>
-        <translation>&lt;b&gt;Effekte:&lt;/b&gt; Die Schaltfläche neben &lt;i&gt;Suchen&lt;/i&gt; listet jeden Effekt, den diese Maschine haben kann, mit Physik, Formel und Form. Was abgeschaltet ist, wird nicht benannt. &lt;i&gt;Neuer Effekt&lt;/i&gt; legt einen eigenen an: Treiber sind Spalten des Protokolls, Formen sind Ausdrücke in x, y, z; beides wird während der Eingabe geprüft. In den Kampagnenordner wird nie geschrieben.</translation>
+        <translation>&lt;b&gt;Effekte:&lt;/b&gt; Die Schaltfläche neben &lt;i&gt;Suchen&lt;/i&gt; listet jeden Effekt, den diese Maschine haben kann, mit Physik, Formel und Form. Was abgeschaltet ist, wird nicht benannt. &lt;i&gt;Neuer Effekt&lt;/i&gt; legt einen eigenen an: Antriebsgrößen sind Spalten des Protokolls, Formen sind Ausdrücke in x, y, z; beides wird während der Eingabe geprüft. In den Kampagnenordner wird nie geschrieben.</translation>
     </message>
     <message>
         <source>&lt;b&gt;Gap:&lt;/b&gt; rms, peak-to-peak and fit before and after, also on data that were held out of the fit. What was measured is known up to a constant of each point and component; the line of a model is drawn with the one that fits best.</source>
@@ -14726,7 +14726,7 @@ ihrem Ordner und führen nicht hinaus.
     </message>
     <message>
         <source>&lt;b&gt;Microscope:&lt;/b&gt; the centre of rotation is free of how the camera sits in the spindle.</source>
-        <translation>&lt;b&gt;Mikroskop:&lt;/b&gt; Der Drehmittelpunkt hängt nicht davon ab, wie die Kamera in der Spindel sitzt.</translation>
+        <translation>&lt;b&gt;Mikroskop:&lt;/b&gt; Das Drehzentrum hängt nicht davon ab, wie die Kamera in der Spindel sitzt.</translation>
     </message>
     <message>
         <source>&lt;b&gt;Next:&lt;/b&gt; what to measure to distinguish rivals, and how the search decided.</source>
@@ -14778,7 +14778,7 @@ ihrem Ordner und führen nicht hinaus.
     </message>
     <message>
         <source>&lt;i&gt;Publish this session&lt;/i&gt; puts its campaigns with their newest results into the store. Publishing again adds nothing. Where the store cannot be reached, what is published waits in the session.</source>
-        <translation>&lt;i&gt;Diese Sitzung veröffentlichen&lt;/i&gt; legt ihre Kampagnen mit den neuesten Ergebnissen im Speicher ab. Erneutes Veröffentlichen fügt nichts hinzu. Ist der Speicher nicht erreichbar, wartet das Veröffentlichte in der Sitzung.</translation>
+        <translation>&lt;i&gt;Diese Sitzung veröffentlichen&lt;/i&gt; legt ihre Kampagnen mit den neuesten Ergebnissen in der Werksdatenbank ab. Erneutes Veröffentlichen fügt nichts hinzu. Ist die Werksdatenbank nicht erreichbar, wartet das Veröffentlichte in der Sitzung.</translation>
     </message>
     <message>
         <source>&lt;i&gt;Stop&lt;/i&gt; lets the compensation fade to zero. If Spindrift stops responding, the control lets it fade as well, or holds it: your choice. A loop that was ended goes on from its folder.</source>
@@ -14806,7 +14806,7 @@ ihrem Ordner und führen nicht hinaus.
     </message>
     <message>
         <source>&lt;i&gt;difference = pane − pane 1;&#xa0; u(difference)² = u(pane)² + u(pane 1)²&lt;/i&gt;</source>
-        <translation>&lt;i&gt;Differenz = Bereich − Bereich 1;&#xa0; u(Differenz)² = u(Bereich)² + u(Bereich 1)²&lt;/i&gt;</translation>
+        <translation>&lt;i&gt;Differenz = Feld − Feld 1;&#xa0; u(Differenz)² = u(Feld)² + u(Feld 1)²&lt;/i&gt;</translation>
     </message>
     <message>
         <source>&lt;i&gt;ex = EX − (EC + EC0Y) y + EB z + α&lt;sub&gt;X&lt;/sub&gt; x,&#xa0; ey = EY + EC x − EA z + α&lt;sub&gt;Y&lt;/sub&gt; y,&#xa0; ez = EZ − EB x + EA y&lt;/i&gt;</source>
@@ -14874,7 +14874,7 @@ ihrem Ordner und führen nicht hinaus.
     </message>
     <message>
         <source>Choose a plan (a JSON file, format spindrift-batch) and press &lt;i&gt;Start&lt;/i&gt;: all processors of this computer work on its campaigns or seeds, beside whatever else you do. The table shows how far each batch of the store is and what it has cost. &lt;i&gt;Cancel the batch&lt;/i&gt; stops it wherever it runs, and &lt;i&gt;Resume&lt;/i&gt; goes on, here, after a cancellation, a crash or a failure; each item has its answer exactly once. A batch that you only stop in the job bar, or by closing the window, is not cancelled: other computers go on.</source>
-        <translation>Einen Plan wählen (JSON-Datei, Format spindrift-batch) und &lt;i&gt;Starten&lt;/i&gt; drücken: Alle Prozessoren dieses Rechners bearbeiten seine Kampagnen oder Startwerte, neben allem, was Sie sonst tun. Die Tabelle zeigt, wie weit jeder Batch-Auftrag des Speichers ist und was er gekostet hat. &lt;i&gt;Batch-Auftrag abbrechen&lt;/i&gt; hält ihn überall an, und &lt;i&gt;Auf diesem Rechner fortsetzen&lt;/i&gt; führt ihn nach Abbruch, Absturz oder Fehler hier weiter; jedes Element wird genau einmal bearbeitet. Ein Batch-Auftrag, der nur in der Auftragsleiste oder durch Schließen des Fensters angehalten wird, ist nicht abgebrochen: Andere Rechner arbeiten weiter.</translation>
+        <translation>Einen Plan wählen (JSON-Datei, Format spindrift-batch) und &lt;i&gt;Starten&lt;/i&gt; drücken: Alle Prozessoren dieses Rechners bearbeiten seine Kampagnen oder Startwerte, neben allem, was Sie sonst tun. Die Tabelle zeigt, wie weit jeder Batch-Auftrag der Werksdatenbank ist und was er gekostet hat. &lt;i&gt;Batch-Auftrag abbrechen&lt;/i&gt; hält ihn überall an, und &lt;i&gt;Auf diesem Rechner fortsetzen&lt;/i&gt; führt ihn nach Abbruch, Absturz oder Fehler hier weiter; jedes Element wird genau einmal bearbeitet. Ein Batch-Auftrag, der nur in der Auftragsleiste oder durch Schließen des Fensters angehalten wird, ist nicht abgebrochen: Andere Rechner arbeiten weiter.</translation>
     </message>
     <message>
         <source>Cold repeatability: the same point again and again comes back within half a resolution.</source>
@@ -14942,7 +14942,7 @@ ihrem Ordner und führen nicht hinaus.
     </message>
     <message>
         <source>Jogs: what the instrument reads beside a commanded step must stay within one resolution of the axis.</source>
-        <translation>Tippschritte: Die Abweichung der Anzeige vom Sollschritt muss innerhalb einer Auflösung der Achse bleiben.</translation>
+        <translation>Verfahrschritte: Die Abweichung der Anzeige vom Sollschritt muss innerhalb einer Auflösung der Achse bleiben.</translation>
     </message>
     <message>
         <source>Log when the control compensates (compensation_on): such data must not enter a fit unnoticed.</source>
@@ -14978,11 +14978,11 @@ ihrem Ordner und führen nicht hinaus.
     </message>
     <message>
         <source>One machine has 3,650 campaigns, fourteen times as many as in five years of weeks. They are found by machine and time, whatever else is in the store; a trend of them takes fourteen times as long.</source>
-        <translation>Eine Maschine hat 3.650 Kampagnen, vierzehnmal so viele wie bei wöchentlicher Messung in fünf Jahren. Sie werden über Maschine und Zeit gefunden, unabhängig vom übrigen Inhalt des Speichers; ein Verlauf daraus dauert vierzehnmal so lange.</translation>
+        <translation>Eine Maschine hat 3.650 Kampagnen, vierzehnmal so viele wie bei wöchentlicher Messung in fünf Jahren. Sie werden über Maschine und Zeit gefunden, unabhängig vom übrigen Inhalt der Werksdatenbank; ein Verlauf daraus dauert vierzehnmal so lange.</translation>
     </message>
     <message>
         <source>Open the store of your plant: a file, or the PostgreSQL server that your department has. Its password stands in the file that PGPASSFILE names, never in the address.</source>
-        <translation>Den Speicher des Werks öffnen: eine Datei oder den PostgreSQL-Server der Abteilung. Sein Passwort steht in der Datei, die PGPASSFILE nennt, nie in der Adresse.</translation>
+        <translation>Die Werksdatenbank öffnen: eine Datei oder den PostgreSQL-Server der Abteilung. Sein Passwort steht in der Datei, die PGPASSFILE nennt, nie in der Adresse.</translation>
     </message>
     <message>
         <source>Over time (touches, logs): a transfer function from speeds and temperatures to the deviation, always predicted freely, never one step ahead.</source>
@@ -15054,7 +15054,7 @@ ihrem Ordner und führen nicht hinaus.
     </message>
     <message>
         <source>Turn one view and the others follow. Faded: within two standard uncertainties of zero; striped: outside the points that were measured.</source>
-        <translation>Dreht man eine Ansicht, folgen die anderen. Verblasst: innerhalb von zwei Standardunsicherheiten um null; gestreift: außerhalb der gemessenen Punkte.</translation>
+        <translation>Dreht man eine Ansicht, folgen die anderen. Verblasst: innerhalb von zwei Standardunsicherheiten um null; schraffiert: außerhalb der gemessenen Punkte.</translation>
     </message>
     <message>
         <source>Two to four panes side by side: states, models, campaigns and scans under one camera and one colour scale.</source>
@@ -15106,7 +15106,7 @@ ihrem Ordner und führen nicht hinaus.
     </message>
     <message>
         <source>centre of rotation</source>
-        <translation>Drehmittelpunkt</translation>
+        <translation>Drehzentrum</translation>
     </message>
     <message>
         <source>cold</source>
@@ -15773,8 +15773,8 @@ ihrem Ordner und führen nicht hinaus.
         <translation>Schwache Richtung</translation>
     </message>
     <message>
-        <source>Known to / µm</source>
-        <translation>Bekannt auf / µm</translation>
+        <source>Standard uncertainty / µm</source>
+        <translation>Standardunsicherheit / µm</translation>
     </message>
     <message>
         <source>Weak directions</source>
@@ -15877,8 +15877,7 @@ ihrem Ordner und führen nicht hinaus.
     </message>
     <message>
         <source>Stylus</source>
-        <translation>Taster-
-einsatz</translation>
+        <translation>Taster­einsatz</translation>
     </message>
     <message>
         <source>x / mm</source>
@@ -16011,7 +16010,7 @@ einsatz</translation>
     </message>
     <message>
         <source>Reference hole</source>
-        <translation>Referenzloch</translation>
+        <translation>Referenzbohrung</translation>
     </message>
     <message>
         <source>H1, H2, …</source>
@@ -16023,7 +16022,7 @@ einsatz</translation>
     </message>
     <message>
         <source>x, y, z of the reference hole from the centre of the rotary axis at 0°</source>
-        <translation>x, y, z des Referenzlochs vom Zentrum der Drehachse bei 0°</translation>
+        <translation>x, y, z der Referenzbohrung vom Zentrum der Rundachse bei 0°</translation>
     </message>
     <message>
         <source>Direction at 0°</source>
@@ -16074,8 +16073,8 @@ einsatz</translation>
         <translation>Ø / mm</translation>
     </message>
     <message>
-        <source>Apart / mm</source>
-        <translation>Abstand / mm</translation>
+        <source>Distance to ball 1 / mm</source>
+        <translation>Abstand zu Kugel 1 / mm</translation>
     </message>
     <message>
         <source>Distance from the first ball</source>
@@ -16083,7 +16082,7 @@ einsatz</translation>
     </message>
     <message>
         <source>Expansion / (µm/(m·K))</source>
-        <translation>Ausdehnung / (µm/(m·K))</translation>
+        <translation>Ausdehnungskoeffizient / (µm/(m·K))</translation>
     </message>
 </context>
 <context>
@@ -16479,7 +16478,7 @@ einsatz</translation>
     </message>
     <message>
         <source>Live</source>
-        <translation>Livebild</translation>
+        <translation>Live</translation>
     </message>
     <message>
         <source>The picture of the camera will appear here</source>
@@ -16608,7 +16607,7 @@ einsatz</translation>
     </message>
     <message>
         <source>No clock offset is applied.</source>
-        <translation>Es wird kein Uhrenversatz angewandt.</translation>
+        <translation>Es wird kein Uhrversatz angewandt.</translation>
     </message>
     <message>
         <source>Offset of %1: %2.</source>
@@ -16854,8 +16853,8 @@ einsatz</translation>
         <translation>± Standardunsicherheit</translation>
     </message>
     <message>
-        <source>how sure: not known yet</source>
-        <translation>Unsicherheit: noch nicht bekannt</translation>
+        <source>uncertainty not yet known</source>
+        <translation>Unsicherheit noch nicht bekannt</translation>
     </message>
     <message>
         <source>%1 s</source>
@@ -17845,7 +17844,7 @@ einsatz</translation>
         <translation>Konditionszahl</translation>
     </message>
     <message>
-        <source>Determined worst</source>
+        <source>Least determined</source>
         <translation>Am schlechtesten bestimmt</translation>
     </message>
     <message>
@@ -17972,8 +17971,8 @@ einsatz</translation>
         <translation>Entlang der Leiste / mm</translation>
     </message>
     <message>
-        <source>Off line / µm</source>
-        <translation>Neben der Geraden / µm</translation>
+        <source>Straightness deviation / µm</source>
+        <translation>Geradheitsabweichung / µm</translation>
     </message>
     <message>
         <source>Deviations from a straight line will appear here</source>
@@ -18064,7 +18063,7 @@ einsatz</translation>
     </message>
     <message>
         <source>one of %1</source>
-        <translation>eines von %1</translation>
+        <translation>einer von: %1</translation>
     </message>
     <message>
         <source>; and </source>
@@ -18092,7 +18091,7 @@ einsatz</translation>
     </message>
     <message>
         <source>The rms is %1, the noise %2. Nothing is missing.</source>
-        <translation>Der rms beträgt %1, das Rauschen %2. Es fehlt nichts.</translation>
+        <translation>Der Effektivwert (rms) beträgt %1, das Rauschen %2. Es fehlt nichts.</translation>
     </message>
     <message>
         <source>Beside %1 something is missing that no effect of the catalogue explains.</source>
@@ -18104,7 +18103,7 @@ einsatz</translation>
     </message>
     <message>
         <source>The rms is %1, the noise %2.</source>
-        <translation>Der rms beträgt %1, das Rauschen %2.</translation>
+        <translation>Der Effektivwert (rms) beträgt %1, das Rauschen %2.</translation>
     </message>
     <message>
         <source>With %1 something remains that cannot be named.</source>
@@ -18629,7 +18628,7 @@ einsatz</translation>
     </message>
     <message>
         <source>Writes your own effects as effects.json, for campaign.json or the command line</source>
-        <translation>Schreibt die eigenen Effekte als effects.json, für campaign.json oder die Kommandozeile</translation>
+        <translation>Schreibt die eigenen Effekte als effects.json, für campaign.json oder die Befehlszeile</translation>
     </message>
     <message>
         <source>Back to the campaign&apos;s</source>
@@ -19360,12 +19359,12 @@ einsatz</translation>
         <translation>Kreise y / px</translation>
     </message>
     <message>
-        <source>Off in x / µm</source>
-        <translation>Abstand in x / µm</translation>
+        <source>Difference in x / µm</source>
+        <translation>Differenz in x / µm</translation>
     </message>
     <message>
-        <source>Off in y / µm</source>
-        <translation>Abstand in y / µm</translation>
+        <source>Difference in y / µm</source>
+        <translation>Differenz in y / µm</translation>
     </message>
     <message>
         <source>Tracks</source>
@@ -19637,8 +19636,8 @@ einsatz</translation>
     <message numerus="yes">
         <source>%n of %1 captures failed the check (%2). Take them again, or exclude them: what decodes of them is evaluated as it is.</source>
         <translation>
-            <numerusform>%n von %1 Aufnahmen hat die Prüfung nicht bestanden (%2). Wiederholen oder ausschließen: was sich davon dekodieren lässt, wird ausgewertet, wie es ist.</numerusform>
-            <numerusform>%n von %1 Aufnahmen haben die Prüfung nicht bestanden (%2). Wiederholen oder ausschließen: was sich davon dekodieren lässt, wird ausgewertet, wie es ist.</numerusform>
+            <numerusform>%n von %1 Aufnahmen hat die Prüfung nicht bestanden (%2). Wiederholen oder ausschließen: was sich davon decodieren lässt, wird ausgewertet, wie es ist.</numerusform>
+            <numerusform>%n von %1 Aufnahmen haben die Prüfung nicht bestanden (%2). Wiederholen oder ausschließen: was sich davon decodieren lässt, wird ausgewertet, wie es ist.</numerusform>
         </translation>
     </message>
     <message>
@@ -20309,7 +20308,7 @@ einsatz</translation>
         <translation>Urteil</translation>
     </message>
     <message>
-        <source>Off place
+        <source>Position error
 / mm</source>
         <translation>Lageabw.
 / mm</translation>
@@ -20426,7 +20425,7 @@ einsatz</translation>
     </message>
     <message>
         <source>Live</source>
-        <translation>Livebild</translation>
+        <translation>Live</translation>
     </message>
     <message>
         <source>Reading the compensation</source>
@@ -20888,7 +20887,7 @@ einsatz</translation>
     </message>
     <message>
         <source>Live</source>
-        <translation>Livebild</translation>
+        <translation>Live</translation>
     </message>
     <message>
         <source>Connected; nothing is written</source>
@@ -21404,6 +21403,22 @@ einsatz</translation>
         <source>The manual cannot be shown. %1</source>
         <translation>Das Handbuch lässt sich nicht anzeigen. %1</translation>
     </message>
+    <message>
+        <source>Find in the manual</source>
+        <translation>Im Handbuch suchen</translation>
+    </message>
+    <message>
+        <source>Return: next place; Shift+Return: the one before</source>
+        <translation>Eingabetaste: nächste Stelle; Umschalt+Eingabetaste: vorige</translation>
+    </message>
+    <message>
+        <source>Not found</source>
+        <translation>Nicht gefunden</translation>
+    </message>
+    <message>
+        <source>%1 of %2</source>
+        <translation>%1 von %2</translation>
+    </message>
 </context>
 <context>
     <name>spindrift::gui::MessagePage</name>
@@ -21580,8 +21595,8 @@ einsatz</translation>
         <translation>Was als Nächstes zu messen ist</translation>
     </message>
     <message>
-        <source>Right one alone afterwards</source>
-        <translation>Danach der richtige allein</translation>
+        <source>Probability of a unique result</source>
+        <translation>Wahrscheinlichkeit eines eindeutigen Ergebnisses</translation>
     </message>
     <message>
         <source>Time / s</source>
@@ -21668,7 +21683,7 @@ einsatz</translation>
         <translation>Der Tisch steht nacheinander in seinen Winkeln.</translation>
     </message>
     <message>
-        <source>To tell</source>
+        <source>To distinguish</source>
         <translation>Zu unterscheiden</translation>
     </message>
     <message>
@@ -21755,8 +21770,8 @@ einsatz</translation>
         <translation>Tukey</translation>
     </message>
     <message>
-        <source>Points: checked ones fit, the others validate</source>
-        <translation>Punkte: angekreuzte passen an, die anderen validieren</translation>
+        <source>Points: checked ones are fitted, the others validate</source>
+        <translation>Punkte: angekreuzte gehen in die Anpassung ein, die anderen dienen der Validierung</translation>
     </message>
     <message>
         <source>Point</source>
@@ -21931,8 +21946,8 @@ einsatz</translation>
         <translation>Geändert seit der Anpassung: %1. Modell erneut anpassen.</translation>
     </message>
     <message>
-        <source>Choose the points that fit, then press Fit the model.</source>
-        <translation>Punkte wählen, die angepasst werden, dann „Modell anpassen“ drücken.</translation>
+        <source>Choose the points to fit, then press Fit the model.</source>
+        <translation>Punkte für die Anpassung wählen, dann „Modell anpassen“ drücken.</translation>
     </message>
     <message>
         <source>State %1 against %2: all nine parameters are determined.</source>
@@ -22423,6 +22438,25 @@ einsatz</translation>
     <message>
         <source>adjusted within its stated uncertainty</source>
         <translation>innerhalb der angegebenen Unsicherheit angepasst</translation>
+    </message>
+</context>
+<context>
+    <name>spindrift::gui::PictureHabits</name>
+    <message>
+        <source>Save the picture</source>
+        <translation>Bild speichern</translation>
+    </message>
+    <message>
+        <source>Copy picture</source>
+        <translation>Bild kopieren</translation>
+    </message>
+    <message>
+        <source>Save picture as …</source>
+        <translation>Bild speichern unter …</translation>
+    </message>
+    <message>
+        <source>Show all</source>
+        <translation>Alles zeigen</translation>
     </message>
 </context>
 <context>
@@ -22938,7 +22972,7 @@ einsatz</translation>
     </message>
     <message>
         <source>On screen. Files, exports, reports and the command line have µm, mm, µrad and °C; what is typed into the files of machine, artefacts and effects has the unit of the file.</source>
-        <translation>Am Bildschirm. Dateien, Ausgaben, Berichte und die Kommandozeile haben µm, mm, µrad und °C; was in die Dateien von Maschine, Prüfkörpern und Effekten eingetragen wird, hat die Einheit der Datei.</translation>
+        <translation>Am Bildschirm. Dateien, Ausgaben, Berichte und die Befehlszeile haben µm, mm, µrad und °C; was in die Dateien von Maschine, Prüfkörpern und Effekten eingetragen wird, hat die Einheit der Datei.</translation>
     </message>
 </context>
 <context>
@@ -23957,8 +23991,8 @@ einsatz</translation>
         <translation>Punkte</translation>
     </message>
     <message>
-        <source>Full / %</source>
-        <translation>Voll / %</translation>
+        <source>Coverage / %</source>
+        <translation>Abdeckung / %</translation>
     </message>
     <message>
         <source>Scans appear with the first row of captures/scans.csv.</source>
@@ -24294,12 +24328,12 @@ einsatz</translation>
         <translation>Maskierung aufheben</translation>
     </message>
     <message>
-        <source>paint a part of a scan away</source>
+        <source>mask part of a scan</source>
         <translation>Teil eines Scans maskieren</translation>
     </message>
     <message>
-        <source>take a part of a scan back</source>
-        <translation>Teil eines Scans zurückholen</translation>
+        <source>unmask part of a scan</source>
+        <translation>Maskierung eines Teils eines Scans aufheben</translation>
     </message>
 </context>
 <context>
@@ -24830,10 +24864,6 @@ einsatz</translation>
         <translation>Modell identifizieren: die Antwort auf einen Sprung jedes Eingangs mit ihrer Unsicherheit.</translation>
     </message>
     <message>
-        <source>Step</source>
-        <translation>Schritt</translation>
-    </message>
-    <message>
         <source>Time constant</source>
         <translation>Zeitkonstante</translation>
     </message>
@@ -25334,7 +25364,7 @@ einsatz</translation>
         </translation>
     </message>
     <message>
-        <source>The machine has changed since the programme was planned. Plan it again.</source>
+        <source>The machine has changed since the program was planned. Plan it again.</source>
         <translation>Die Maschine hat sich geändert, seit das Programm geplant wurde. Es neu planen.</translation>
     </message>
     <message numerus="yes">
@@ -25483,8 +25513,8 @@ einsatz</translation>
         <translation>Vorlauf / µm</translation>
     </message>
     <message>
-        <source>Repeats / µm</source>
-        <translation>Wiederholung / µm</translation>
+        <source>Repeatability / µm</source>
+        <translation>Wiederholpräzision / µm</translation>
     </message>
     <message>
         <source>Step / µm</source>
@@ -27191,8 +27221,8 @@ einsatz</translation>
         <translation>Drehzentrum, Achsrichtungen und Höhen bestimmen und Aufnahmen in Abweichungen umsetzen.</translation>
     </message>
     <message>
-        <source>Fit the error model, choose which points fit and which validate, and look at the heat map.</source>
-        <translation>Fehlermodell anpassen, anzupassende und validierende Punkte wählen und die Farbkarte ansehen.</translation>
+        <source>Fit the error model, choose the points to fit and those to validate, and look at the heat map.</source>
+        <translation>Fehlermodell anpassen, Punkte für Anpassung und Validierung wählen und die Farbkarte ansehen.</translation>
     </message>
     <message>
         <source>Find where simulation and measurement disagree, and which effect is missing.</source>

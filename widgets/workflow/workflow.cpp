@@ -47,7 +47,8 @@ QString stepInstruction(StepId step) {
       return Workflow::tr(
           "Find the centre of rotation, the axis directions and the heights, and turn captures into deviations.");
     case StepId::Model:
-      return Workflow::tr("Fit the error model, choose which points fit and which validate, and look at the heat map.");
+      return Workflow::tr(
+          "Fit the error model, choose the points to fit and those to validate, and look at the heat map.");
     case StepId::Discrepancy:
       return Workflow::tr("Find where simulation and measurement disagree, and which effect is missing.");
     case StepId::Compensate:

@@ -60,7 +60,7 @@ TEST(LoopPlan, IsReadAndItsFaultsAreSaid) {
   const Fault faults[] = {{"/control/kind", "fanuc", "linuxcnc"},
                           {"/touches/0/component", "EA", "EX"},
                           {"/touches/0/target_mm", {51, 50, -101}, "does not run along its axis"},
-                          {"/touches/0/point", "F1)\nG0 Z-300\n(", "cannot stand in a programme"},
+                          {"/touches/0/point", "F1)\nG0 Z-300\n(", "cannot stand in a program"},
                           {"/programme/1/from_s", 0, "out of order"},
                           {"/duration_s", 0, "duration_s"},
                           {"/when_silent", "jump", "hold"},

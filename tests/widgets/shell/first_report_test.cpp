@@ -14,6 +14,7 @@
 #include <string>
 
 #include "core/base/atomic_file.h"
+#include "core/base/count_text.h"
 #include "tests/support/source_folder.h"
 #include "tests/widgets/support/story_support.h"
 #include "widgets/jobs/job_bar.h"

@@ -151,7 +151,7 @@ std::span<const char* const> spindrift::gui::core_formats::reporting() noexcept 
     QT_TRANSLATE_NOOP("core", "These data show no offset between the clocks of log and observations."),
     QT_TRANSLATE_NOOP("core", "Tilts of the log"),
     QT_TRANSLATE_NOOP("core", "Time / h"),
-    QT_TRANSLATE_NOOP("core", "To tell {}: {}."),
+    QT_TRANSLATE_NOOP("core", "To distinguish {}: {}."),
     QT_TRANSLATE_NOOP("core", "Top"),
     QT_TRANSLATE_NOOP("core", "Touches alone / (µm/m)"),
     QT_TRANSLATE_NOOP("core", "Tracks"),

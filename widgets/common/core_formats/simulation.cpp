@@ -69,7 +69,7 @@ std::span<const char* const> spindrift::gui::core_formats::simulation() noexcept
     QT_TRANSLATE_NOOP("core", "heat flow"),
     QT_TRANSLATE_NOOP("core", "horizontal machining centre"),
     QT_TRANSLATE_NOOP("core", "image {} of {}"),
-    QT_TRANSLATE_NOOP("core", "is not an effect of the catalogue (EFFECTS.md) and none of {}"),
+    QT_TRANSLATE_NOOP("core", "is not an effect of the catalogue (spindrift-cli effects lists it) and none of {}"),
     QT_TRANSLATE_NOOP("core", "is there already and not empty; allowed: a new or an empty folder."),
     QT_TRANSLATE_NOOP("core", "names a point that the machine does not have"),
     QT_TRANSLATE_NOOP("core", "needs a ball screw on that axis (drive.type)"),

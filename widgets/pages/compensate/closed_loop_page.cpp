@@ -299,7 +299,7 @@ void ClosedLoopPage::showNumbers() {
       axisTile(axis)->set(sureNumber(status.applied_um[axis], status.active ? sigma : std::nan("")),
                           !status.active         ? tr("not active")
                           : std::isfinite(sigma) ? tr("± standard uncertainty")
-                                                 : tr("how sure: not known yet"));
+                                                 : tr("uncertainty not yet known"));
     }
   }
   if (known) {

@@ -111,7 +111,7 @@ FiducialCalibratePage::FiducialCalibratePage(PageContext page_context, QWidget* 
   circles_verdict_ = new Callout;
   comparison_column->addWidget(circles_verdict_);
   circles_ = new RowsModel({tr("Fiducial"), tr("State"), tr("Joint x / px"), tr("Joint y / px"), tr("Circles x / px"),
-                            tr("Circles y / px"), tr("Off in x / µm"), tr("Off in y / µm"), tr("Tracks")},
+                            tr("Circles y / px"), tr("Difference in x / µm"), tr("Difference in y / µm"), tr("Tracks")},
                            this);
   comparison_column->addWidget(
       makeTable(circles_, tr("Circles"),

@@ -72,7 +72,7 @@ NineParameterPage::NineParameterPage(PageContext page_context, QWidget* parent)
   robust_->addItem(tr("Tukey"), 2);
   choices->addWidget(robust_, 1);
   left->body()->addLayout(choices);
-  left->body()->addWidget(makeLabel(tr("Points: checked ones fit, the others validate"), "sectionTitle"));
+  left->body()->addWidget(makeLabel(tr("Points: checked ones are fitted, the others validate"), "sectionTitle"));
   points_ = new RowsModel({tr("Point"), tr("x / mm"), tr("y / mm"), tr("EX / µm"), tr("EY / µm"), tr("EZ / µm")}, this);
   auto* point_table = makeTable(points_, tr("Points"), tr("Points appear when there are observations."));
   left->body()->addWidget(point_table, 2);
@@ -273,7 +273,7 @@ void NineParameterPage::showFit() {
     higher_->setEnabled(false);
     view_->clear();
     callout()->setAction({}, {});
-    callout()->show(Tone::Accent, tr("Choose the points that fit, then press Fit the model."));
+    callout()->show(Tone::Accent, tr("Choose the points to fit, then press Fit the model."));
     return;
   }
   const NineParameterFit& f = result_->fit;

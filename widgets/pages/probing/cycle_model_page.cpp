@@ -79,7 +79,7 @@ CycleModelPage::CycleModelPage(PageContext page_context, QWidget* parent)
                                  tr("Every parameter with its uncertainty appears after the fit.")),
                tr("Parameters"));
   combinations_ =
-      new RowsModel({tr("Cycle"), tr("Condition number"), tr("Determined worst"), tr("Not determined")}, this);
+      new RowsModel({tr("Cycle"), tr("Condition number"), tr("Least determined"), tr("Not determined")}, this);
   auto* combinations = makeTable(combinations_, tr("Weak combinations"),
                                  tr("Most strongly correlated parameters are listed after the fit."));
   stretchColumn(combinations, 2);

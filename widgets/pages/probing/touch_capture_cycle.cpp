@@ -110,7 +110,7 @@ void TouchCapturePage::makeProgram() {
 bool TouchCapturePage::forgetOldProgram() {
   if (!program_ || program_machine_ == session().campaign()->machine.source) return false;
   program_.reset();
-  program_verdict_->show(Tone::Outdated, tr("The machine has changed since the programme was planned. Plan it again."));
+  program_verdict_->show(Tone::Outdated, tr("The machine has changed since the program was planned. Plan it again."));
   return true;
 }
 

@@ -103,8 +103,8 @@ TouchEvaluationPage::TouchEvaluationPage(PageContext page_context, QWidget* pare
                   makeTable(repeatability_, tr("Repeatability"), tr("Repeatability requires at least 18 cycles."))),
       tr("Repeatability"));
   health_verdict_ = new Callout;
-  health_ = new RowsModel({tr("Stylus"), tr("Sphere"), tr("Radius / mm"), tr("Pre-travel / µm"), tr("Repeats / µm"),
-                           tr("Step / µm"), tr("Verdict")},
+  health_ = new RowsModel({tr("Stylus"), tr("Sphere"), tr("Radius / mm"), tr("Pre-travel / µm"),
+                           tr("Repeatability / µm"), tr("Step / µm"), tr("Verdict")},
                           this);
   add(withVerdict(health_verdict_, makeTable(health_, tr("Health of the probe"),
                                              tr("Touch a sphere from at least five directions to qualify the styli."))),

@@ -38,7 +38,7 @@ ScanCapturePage::ScanCapturePage(PageContext page_context, QWidget* parent)
   addAction(check_);
 
   auto* list = new Card(tr("Scans"));
-  rows_ = new RowsModel({tr("Scan"), tr("At / min"), tr("State"), tr("Points"), tr("Full / %")}, this);
+  rows_ = new RowsModel({tr("Scan"), tr("At / min"), tr("State"), tr("Points"), tr("Coverage / %")}, this);
   table_ = makeTable(rows_, tr("Scans"), tr("Scans appear with the first row of captures/scans.csv."));
   list->body()->addWidget(table_, 1);
   verdict_ = new Callout;

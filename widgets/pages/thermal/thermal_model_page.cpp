@@ -139,7 +139,7 @@ QWidget* ThermalModelPage::makeDetails() {
   step_plot_->setEmptyText(tr("Step responses will appear here"),
                            tr("Identify the model: the answer to a step of each input with its uncertainty."));
   step_column->addWidget(step_plot_, 1);
-  tabs_->addTab(step, tr("Step"));
+  tabs_->addTab(step, tr("Step response"));
   lags_ = new RowsModel({tr("Input"), tr("Time constant"), tr("Pole / 1/h"), tr("Gain"), tr("Unit")}, this);
   tabs_->addTab(makeTable(lags_, tr("Time constants"),
                           tr("Poles as time constants with their gains appear after the identification.")),

@@ -41,7 +41,7 @@ LiveTouchPanel::LiveTouchPanel(SessionModel& session, QWidget* parent)
   bar_->setTextVisible(false);
   bar_->setVisible(false);
   column->addWidget(bar_);
-  rows_ = new RowsModel({tr("Touch"), tr("Verdict"), tr("Off place\n/ mm"), tr("Change\n/ µm"), tr("Spread\n/ µm"),
+  rows_ = new RowsModel({tr("Touch"), tr("Verdict"), tr("Position error\n/ mm"), tr("Change\n/ µm"), tr("Spread\n/ µm"),
                          tr("Approach"), tr("Why")},
                         this);
   table_ = makeTable(rows_, tr("Touches as they come in"),

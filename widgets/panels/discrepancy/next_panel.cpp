@@ -37,7 +37,7 @@ NextPanel::NextPanel(QWidget* parent) : QWidget(parent) {
   suggestion_->setWordWrap(true);
   suggestion_->setTextInteractionFlags(Qt::TextSelectableByMouse);
   left->body()->addWidget(suggestion_);
-  gain_ = new NumberTile(tr("Right one alone afterwards"));
+  gain_ = new NumberTile(tr("Probability of a unique result"));
   left->body()->addWidget(gain_);
   times_ = new RowsModel({tr("Time / s"), tr("Point"), tr("Program")}, this);
   left->body()->addStretch(1);
@@ -133,7 +133,7 @@ void NextPanel::showSuggestion() {
       for (const QString& line : lines) escaped << line.toHtmlEscaped();
       return QStringLiteral("<p><b>%1</b><br>%2</p>").arg(name.toHtmlEscaped(), escaped.join(QStringLiteral("<br>")));
     };
-    suggestion_->setText(item(tr("To tell"), {titledSentence(s.separates)}) +
+    suggestion_->setText(item(tr("To distinguish"), {titledSentence(s.separates)}) +
                          item(tr("What the machine does (h:min)"), programme) +
                          item(tr("Where"), {places.join(QStringLiteral("; "))}) +
                          item(tr("When, from the start of the program (h:min)"), {times.join(QStringLiteral(", "))}));

@@ -163,7 +163,7 @@ void ArtefactFields::show(const nlohmann::json& artefact) {
   } else {
     features_->setColumnCount(6);
     features_->setHorizontalHeaderLabels(
-        {tr("Ball"), tr("Ø / mm"), tr("x / mm"), tr("y / mm"), tr("z / mm"), tr("Apart / mm")});
+        {tr("Ball"), tr("Ø / mm"), tr("x / mm"), tr("y / mm"), tr("z / mm"), tr("Distance to ball 1 / mm")});
     features_->horizontalHeaderItem(5)->setToolTip(tr("Distance from the first ball"));
     const nlohmann::json list = artefact.value("balls", nlohmann::json::array());
     features_->setRowCount(static_cast<int>(list.size()));

@@ -92,7 +92,7 @@ ArtefactDesigner::ArtefactDesigner(WindowDraft draft, QWidget* parent) : QDialog
   view_ = new View3D;
   right->body()->addWidget(view_, 3);
   sigmas_ = new RowsModel({tr("Uncertainty of"), tr("rigid"), tr("push broom")}, this);
-  weak_ = new RowsModel({tr("Scan model"), tr("Weak direction"), tr("Known to / µm")}, this);
+  weak_ = new RowsModel({tr("Scan model"), tr("Weak direction"), tr("Standard uncertainty / µm")}, this);
   auto* weak = makeTable(weak_, tr("Weak directions"), tr("No direction is weak."));
   weak->setToolTip(
       tr("Directions of the motion that are known thirty times less well than the best one; rotations "

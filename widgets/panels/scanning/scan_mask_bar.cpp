@@ -105,7 +105,7 @@ void ScanMaskBar::add(const MaskStroke& stroke) {
   if (!item.isEmpty()) strokes = masksOf({item.toStdString()}).begin()->second;
   if (strokes.empty() && !stroke.erase) return;  // nothing to take back
   strokes.push_back(stroke);
-  push(strokes, stroke.erase ? tr("paint a part of a scan away") : tr("take a part of a scan back"));
+  push(strokes, stroke.erase ? tr("mask part of a scan") : tr("unmask part of a scan"));
 }
 
 void ScanMaskBar::push(const MaskStrokes& strokes, const QString& text) {
