@@ -21,6 +21,7 @@ struct CompensationArguments {
   std::string reference;
   std::string out;
   std::string fanuc;
+  bool force = false;
   CompensationRequest request;
 };
 
@@ -53,12 +54,15 @@ CommandResult runCompensate(const CompensationArguments& a, JobContext& job) {
   const ObservationSet observations = observationsOf(campaign, a.observations, {}, first, &notes);
   JobContext second = job.part(0.5, 1.0);
   const CompensationPlan plan = planCompensation(campaign, observations, request, second);
-  if (!a.out.empty()) {
+  const bool harmless = plan.harm().empty();
+  if (!a.out.empty() && !harmless && !a.force) {
+    notes.push_back(fmt::format("nothing was written to {}; --force writes the files all the same.", a.out));
+  } else if (!a.out.empty()) {
     for (const CompensationFile& f : plan.files) {
       writeFileAtomically(std::filesystem::path(a.out) / f.name, f.content);
     }
   }
-  return noted({plan.json(), plan.summary(), Done}, notes);
+  return noted({plan.json(), plan.summary(), harmless ? Done : NotGoodEnough}, notes);
 }
 
 struct VerifyArguments {
@@ -132,6 +136,8 @@ void addCompensationCommands(CLI::App& app, CommandLine& line) {
                    "Folder for the files: corrections at points and on a grid, ISO 230-1 components, tables for "
                    "LinuxCNC, Siemens and Fanuc, compensation values for Heidenhain")
       ->type_name("DIR");
+  command->add_flag("--force", a->force,
+                    "Write the files even if data not used for fitting are no better with the correction");
   CLI::Option* fanuc =
       command
           ->add_option("--fanuc", a->fanuc,

@@ -250,6 +250,8 @@ void addIso230(CLI::App& parent, CommandLine& line) {
   command->add_option("--columns", a->columns,
                       "Displacements and tilts, separated by commas; default: all _um and _urad columns");
   command->add_option("--ambient", a->request.ambient, "Column of the ambient temperature (etve)");
+  command->add_option("--speed", a->request.speed,
+                      "Column of the spindle's speed (spindle); default: spindle_rpm, or the only one");
   command->add_option("--range", a->range, "Part of the log in s, such as one of several speed steps")
       ->type_name("FROM:TO");
   command

@@ -130,6 +130,7 @@ AxisComponentTable axisComponentsAt(const ErrorModel& model, const MachineDescri
   const LinearAxis& description = *machine.findAxis(axis);
   AxisComponentTable table;
   table.axis = axis;
+  table.reference_mm = reference_mm;
   DeviationQuery query = conditions;
   query.point.clear();
   query.position_mm = reference_mm;
@@ -196,7 +197,7 @@ std::string axisComponentsCsv(const AxisComponentTable& table, const std::option
     for (const auto* values : {&table.deviation[row], &table.sigma[row]})
       for (std::size_t i = 0; i < 6; ++i) text += fieldOf((*values)[i], known[i]);
     if (measured) {
-      Eigen::Vector3d position = measured->low_mm;
+      Eigen::Vector3d position = table.reference_mm;
       position[axis] = table.position_mm[row];
       text += measured->contains(position) ? ",0" : ",1";
     }

@@ -71,6 +71,7 @@ struct CompensationNode {
 /// position: the uncertainty is that of this difference, zero at the reference itself.
 struct AxisComponentTable {
   std::string axis;
+  Eigen::Vector3d reference_mm = Eigen::Vector3d::Zero();  ///< through which its line passes
   std::vector<double> position_mm;
   /// E<X|Y|Z|A|B|C><axis>: um and urad, one row per position.
   std::vector<std::array<double, 6>> deviation;

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 
 #include "core/base/text.h"
@@ -69,6 +70,38 @@ std::map<std::string, Eigen::Vector3d> ballArms(const TouchList& list, const Mac
     arms[ball.id] = seen ? Eigen::Vector3d(at->second - origin->second) : Eigen::Vector3d(turn * ball.certified_mm);
   }
   return arms;
+}
+
+/// What a growth of the artefact that is not known does: an artefact that grows as a whole looks like screws that grow
+/// less, all three alike. Empty: it is known, or nothing speaks for any.
+std::string unknownGrowth(const Artefact& artefact, const ArtefactCertificate& certificate, const OperatingLog* log,
+                          const std::vector<double>& cycle_time_s) {
+  const bool logged = log != nullptr && !log->empty() &&
+                      (log->has(fmt::format("T_{}_degC", artefact.id)) || log->has("T_artefact_degC"));
+  if (!certificate.expansion_per_K) {
+    if (!logged || cycle_time_s.empty()) return {};
+    double low = std::numeric_limits<double>::infinity();
+    double high = -low;
+    for (const double time : cycle_time_s) {
+      const double temperature = artefactTemperature(artefact, log, time).value_or(low);
+      low = std::min(low, temperature);
+      high = std::max(high, temperature);
+    }
+    constexpr double telling_K = 0.5;
+    if (!(high - low > telling_K)) return {};
+    return fmt::format(
+        "{} was up to {:.1f} K warmer in one cycle than in another, but the machine file gives no expansion_um_per_m_K "
+        "of it: its own expansion is missing in the expansion of all three screws.",
+        artefact.id, high - low);
+  }
+  const double per_K = *certificate.expansion_per_K * um_per_m_per_unit;
+  constexpr double negligible_um_per_m_K = 0.5;
+  if (logged || !(std::abs(per_K) > negligible_um_per_m_K)) return {};
+  return fmt::format(
+      "No temperature of {} was logged (T_{}_degC): with every kelvin it warms, the expansion of all three screws "
+      "comes "
+      "out {:.1f} µm/m too small, beyond the stated uncertainty.",
+      artefact.id, artefact.id, per_K);
 }
 
 }  // namespace
@@ -163,6 +196,8 @@ BallCycleResult evaluateBallCycles(const TouchList& list, const MachineDescripti
       result.warnings.push_back(std::move(warning));
     addGrowthUncertainty(corrected, growth.factors, arm_mm, result);
   }
+  if (std::string warning = unknownGrowth(artefact, certificate, log, result.cycle_time_s); !warning.empty())
+    result.warnings.push_back(std::move(warning));
 
   // (13): distances against the certificate, with the artefact as warm as it is.
   const double certificate_um = artefact.certificate_uncertainty_um.value_or(0.0);

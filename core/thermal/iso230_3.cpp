@@ -6,6 +6,9 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <map>
+#include <utility>
 
 #include "core/base/error.h"
 #include "core/math/statistics.h"
@@ -19,6 +22,24 @@ bool turns(double speed_rpm) {
   return std::abs(speed_rpm) > creep_rpm;
 }
 
+/// Smallest difference of neighbours, but for what rounding of numbers makes of equal ones; 0 where all are equal.
+double stepOf(const std::vector<double>& values) {
+  double step = std::numeric_limits<double>::infinity();
+  double largest = 0.0;
+  for (const double v : values) largest = std::max(largest, std::abs(v));
+  std::size_t equal = 0;
+  for (std::size_t i = 1; i < values.size(); ++i) {
+    const double d = std::abs(values[i] - values[i - 1]);
+    if (d > 1e-9 * largest) {
+      step = std::min(step, d);
+    } else {
+      ++equal;
+    }
+  }
+  // Readings in steps repeat; those that only happen to lie close do not.
+  return std::isfinite(step) && 4 * equal > values.size() ? step : 0.0;
+}
+
 double readingSigma(const ComponentSeries& c) {
   if (c.reading_sigma > 0.0) return c.reading_sigma;
   // Second differences remove what is smooth; their variance is six times that of a reading.
@@ -27,7 +48,8 @@ double readingSigma(const ComponentSeries& c) {
     if (std::isfinite(x)) v.push_back(x);
   std::vector<double> second;
   for (std::size_t i = 1; i + 1 < v.size(); ++i) second.push_back(v[i - 1] - 2.0 * v[i] + v[i + 1]);
-  return second.empty() ? 0.0 : robustSigma(second) / std::sqrt(6.0);
+  if (second.empty()) return 0.0;
+  return std::max(robustSigma(second) / std::sqrt(6.0), stepOf(v) / std::sqrt(12.0));
 }
 
 void checkSeries(std::span<const double> time_s, const std::vector<ComponentSeries>& components, std::size_t least) {
@@ -123,57 +145,99 @@ void checkWindow(double window_s, std::span<const double> time_s) {
                                window_s, time_s.empty() ? 0.0 : time_s.back() - time_s.front(), longest_s));
 }
 
+int signOf(const AxisReading& r) {
+  return r.direction >= 0 ? 1 : -1;
+}
+
+/// Readings of a position by point and direction, each in order of time.
+using AxisSeries = std::map<std::pair<std::string, int>, std::vector<AxisReading>>;
+
+AxisSeries seriesAt(const std::vector<AxisReading>& readings, double position) {
+  AxisSeries series;
+  for (const AxisReading& r : readings)
+    if (std::abs(r.position_mm - position) < 1e-6) series[{r.point, signOf(r)}].push_back(r);
+  return series;
+}
+
+/// Standard deviation about a time history common to all series, up to the third power, with a constant of each; and
+/// these constants.
+std::pair<double, std::map<std::pair<std::string, int>, double>> scatterOf(const AxisSeries& series) {
+  Eigen::Index n = 0;
+  double from = std::numeric_limits<double>::infinity();
+  double to = -from;
+  for (const auto& [key, list] : series) {
+    n += static_cast<Eigen::Index>(list.size());
+    from = std::min(from, list.front().time_s);
+    to = std::max(to, list.back().time_s);
+  }
+  const auto constants = static_cast<Eigen::Index>(series.size());
+  const Eigen::Index powers = std::clamp<Eigen::Index>(n / 2 - 1, 0, 3);
+  Eigen::MatrixXd A = Eigen::MatrixXd::Zero(n, powers + constants);
+  Eigen::VectorXd y(n);
+  Eigen::Index row = 0;
+  Eigen::Index column = powers;
+  for (const auto& [key, list] : series) {
+    for (const AxisReading& r : list) {
+      const double u = (r.time_s - from) / std::max(to - from, 1e-9) * 2.0 - 1.0;
+      double power = u;
+      for (Eigen::Index k = 0; k < powers; ++k, power *= u) A(row, k) = power;
+      A(row, column) = 1.0;
+      y[row++] = r.deviation_um;
+    }
+    ++column;
+  }
+  const Eigen::VectorXd solution = A.colPivHouseholderQr().solve(y);
+  const Eigen::VectorXd rest = y - A * solution;
+  const Eigen::Index p = A.cols();
+  std::map<std::pair<std::string, int>, double> constant;
+  column = powers;
+  for (const auto& [key, list] : series) constant[key] = solution[column++];
+  return {n > p ? std::sqrt(rest.squaredNorm() / static_cast<double>(n - p)) : 0.0, constant};
+}
+
 AxisPositionResult evaluatePosition(const std::vector<AxisReading>& readings, double position) {
   AxisPositionResult out;
   out.position_mm = position;
-  std::vector<AxisReading> here;
-  for (const AxisReading& r : readings)
-    if (std::abs(r.position_mm - position) < 1e-6) here.push_back(r);
-  out.readings = here.size();
-  if (here.size() < 4)
+  const AxisSeries series = seriesAt(readings, position);
+  for (const auto& [key, list] : series) out.readings += list.size();
+  if (out.readings < 4)
     throw InputError(fmt::format("position {} mm was measured {} times; allowed: at least 4 times over the test.",
-                                 position, here.size()));
-  double plus = 0.0;
-  double minus = 0.0;
-  int n_plus = 0;
-  int n_minus = 0;
-  double low = here.front().deviation_um;
-  double high = low;
-  for (const AxisReading& r : here) {
-    low = std::min(low, r.deviation_um);
-    high = std::max(high, r.deviation_um);
-    (r.direction >= 0 ? plus : minus) += r.deviation_um;
-    ++(r.direction >= 0 ? n_plus : n_minus);
+                                 position, out.readings));
+  const auto [s, constant] = scatterOf(series);
+  std::map<std::string, std::pair<double, double>> range;
+  const double end = 0.1 * (readings.back().time_s - readings.front().time_s);
+  double changes = 0.0;
+  double reversals = 0.0;
+  double spanning = 0.0;
+  double both = 0.0;
+  for (const auto& [key, list] : series) {
+    const auto& [point, direction] = key;
+    auto& [low, high] = range.try_emplace(point, list.front().deviation_um, list.front().deviation_um).first->second;
+    for (const AxisReading& r : list) {
+      low = std::min(low, r.deviation_um);
+      high = std::max(high, r.deviation_um);
+    }
+    out.range_um = std::max(out.range_um, high - low);
+    if (const auto other = constant.find({point, 1}); direction < 0 && other != constant.end()) {
+      reversals += other->second - constant.at(key);
+      both += 1.0;
+    }
+    if (list.size() < 2 || list.front().time_s > readings.front().time_s + end ||
+        list.back().time_s < readings.back().time_s - end)
+      continue;
+    changes += list.back().deviation_um - list.front().deviation_um;
+    spanning += 1.0;
   }
-  out.range_um = high - low;
-  out.reversal_um = n_plus > 0 && n_minus > 0 ? plus / n_plus - minus / n_minus : std::nan("");
-  // First and last cycle: all readings of both directions there (one or two).
-  const std::size_t group = n_plus > 0 && n_minus > 0 ? 2 : 1;
-  double first = 0.0;
-  double last = 0.0;
-  for (std::size_t k = 0; k < group; ++k) {
-    first += here[k].deviation_um / static_cast<double>(group);
-    last += here[here.size() - 1 - k].deviation_um / static_cast<double>(group);
+  if (spanning == 0.0) {
+    throw InputError(
+        fmt::format("at {} mm no point was approached from one direction both at the beginning and at the "
+                    "end of the test; allowed: the same approaches in the first and in the last cycle.",
+                    position));
   }
-  out.change_um = last - first;
-  // Repeatability: scatter about a course of time common to both directions, up to the third power, with an offset per
-  // direction.
-  const Eigen::Index n = static_cast<Eigen::Index>(here.size());
-  const Eigen::Index p = std::min<Eigen::Index>(4, n / 2) + (group == 2 ? 1 : 0);
-  Eigen::MatrixXd A(n, p);
-  Eigen::VectorXd y(n);
-  const double span = std::max(here.back().time_s - here.front().time_s, 1e-9);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const double t = (here[static_cast<std::size_t>(i)].time_s - here.front().time_s) / span * 2.0 - 1.0;
-    double power = 1.0;
-    for (Eigen::Index k = 0; k < p - (group == 2 ? 1 : 0); ++k, power *= t) A(i, k) = power;
-    if (group == 2) A(i, p - 1) = here[static_cast<std::size_t>(i)].direction >= 0 ? 0.5 : -0.5;
-    y[i] = here[static_cast<std::size_t>(i)].deviation_um;
-  }
-  const Eigen::VectorXd rest = y - A * A.colPivHouseholderQr().solve(y);
-  const double s = n > p ? std::sqrt(rest.squaredNorm() / static_cast<double>(n - p)) : 0.0;
+  out.change_um = changes / spanning;
+  out.change_sigma_um = s * std::sqrt(2.0 / spanning);
   out.repeatability_um = 2.0 * s;
-  out.change_sigma_um = s * std::sqrt(2.0 / static_cast<double>(group));
+  out.reversal_um = both > 0.0 ? reversals / both : std::nan("");
   return out;
 }
 
@@ -397,28 +461,32 @@ AxisResult evaluateMovingAxis(std::vector<AxisReading> readings) {
   result.expansion_um = result.high.change_um - result.low.change_um;
   result.expansion_sigma_um = std::hypot(result.high.change_sigma_um, result.low.change_sigma_um);
   result.expansion_um_per_m = result.expansion_um / ((high_mm - low_mm) * 1e-3);
-  // Course: difference of the two positions in each direction relative to its first value; the low position
-  // interpolated in time.
-  for (const int direction : {1, -1}) {
-    std::vector<double> t;
-    std::vector<double> v;
-    for (const AxisReading& r : readings) {
-      if (std::abs(r.position_mm - low_mm) > 1e-6 || (r.direction >= 0 ? 1 : -1) != direction) continue;
-      t.push_back(r.time_s);
-      v.push_back(r.deviation_um);
-    }
-    if (t.size() < 2) continue;
-    double first = std::nan("");
-    for (const AxisReading& r : readings) {
-      if (std::abs(r.position_mm - high_mm) > 1e-6 || (r.direction >= 0 ? 1 : -1) != direction) continue;
-      const auto next = std::clamp<std::ptrdiff_t>(std::lower_bound(t.begin(), t.end(), r.time_s) - t.begin(), 1,
-                                                   static_cast<std::ptrdiff_t>(t.size()) - 1);
+  // Course: what each series of the high position has changed since its first reading, minus the mean change of the
+  // series of the low one, interpolated in time.
+  const AxisSeries below = seriesAt(readings, low_mm);
+  const auto changeBelow = [&](double time_s, int direction) {
+    double sum = 0.0;
+    double count = 0.0;
+    for (const auto& [key, list] : below) {
+      if (key.second != direction || list.size() < 2) continue;
+      const auto at = std::lower_bound(list.begin(), list.end(), time_s,
+                                       [](const AxisReading& r, double t) { return r.time_s < t; });
+      const auto next = std::clamp(at, list.begin() + 1, list.end() - 1);
+      const AxisReading& a = *(next - 1);
       const double w =
-          t[next] > t[next - 1] ? std::clamp((r.time_s - t[next - 1]) / (t[next] - t[next - 1]), 0.0, 1.0) : 0.0;
-      const double difference = r.deviation_um - ((1.0 - w) * v[next - 1] + w * v[next]);
-      if (std::isnan(first)) first = difference;
+          next->time_s > a.time_s ? std::clamp((time_s - a.time_s) / (next->time_s - a.time_s), 0.0, 1.0) : 0.0;
+      sum += (1.0 - w) * a.deviation_um + w * next->deviation_um - list.front().deviation_um;
+      count += 1.0;
+    }
+    return count > 0.0 ? sum / count : std::nan("");
+  };
+  for (const auto& [key, list] : seriesAt(readings, high_mm)) {
+    const double zero = changeBelow(list.front().time_s, key.second);
+    for (const AxisReading& r : list) {
+      const double change = r.deviation_um - list.front().deviation_um - (changeBelow(r.time_s, key.second) - zero);
+      if (!std::isfinite(change)) continue;
       result.time_s.push_back(r.time_s);
-      result.expansion_over_time_um.push_back(difference - first);
+      result.expansion_over_time_um.push_back(change);
     }
   }
   std::vector<std::size_t> order(result.time_s.size());

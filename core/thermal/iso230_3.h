@@ -84,20 +84,22 @@ struct SpindleResult {
                                                     const std::vector<ComponentSeries>& components,
                                                     double fraction = 0.9, double window_s = level_window_s);
 
-/// Approaches of two target positions near both ends of travel while the axis is exercised.
+/// Approaches of two target positions near both ends of travel while the axis is exercised. Readings of one point in
+/// one direction make a series: it has an unknown constant of its own, so that only what changes within it counts.
 struct AxisReading {
   double time_s = 0.0;
   double position_mm = 0.0;
   double deviation_um = 0.0;
-  int direction = 1;  ///< of approach, +1 or -1
+  int direction = 1;       ///< of approach, +1 or -1
+  std::string point = {};  ///< beside others at the same position
 };
 struct AxisPositionResult {
   double position_mm = 0.0;
-  double change_um = 0.0;  ///< mean of the last cycle minus mean of the first
+  double change_um = 0.0;  ///< last minus first reading, mean over the series that span the test
   double change_sigma_um = 0.0;
-  double range_um = 0.0;
-  double repeatability_um = 0.0;  ///< 2 s of the deviations from a smooth course over time (local quadratic)
-  double reversal_um = 0.0;       ///< mean of + minus mean of -; NaN if only one direction was measured
+  double range_um = 0.0;          ///< largest of a point, both directions
+  double repeatability_um = 0.0;  ///< 2 s of the deviations from a time history (up to the third power) of all series
+  double reversal_um = 0.0;       ///< + minus - at one moment, mean over points; NaN if none has both
   std::size_t readings = 0;
 };
 struct AxisResult {
@@ -109,7 +111,8 @@ struct AxisResult {
   std::vector<double> time_s;  ///< course of the expansion: at the readings of the high position
   std::vector<double> expansion_over_time_um;
 };
-/// Only the lowest and the highest position are used.
+/// Only the lowest and the highest position are used. Throws InputError: fewer than four readings at one of them, or no
+/// series there that spans the test (its first and last reading within a tenth of the ends).
 [[nodiscard]] AxisResult evaluateMovingAxis(std::vector<AxisReading> readings);
 
 }  // namespace spindrift

@@ -557,7 +557,7 @@ ThermalModel ThermalModel::parse(const JsonNode& root) {
     output.degrees_of_freedom = node.numberOr("degrees_of_freedom", 0.0);
     output.noise_sigma = node.numberOr("noise_sigma", 0.0);
     output.noise_tau_s = node.numberOr("noise_tau_s", 0.0);
-    output.uncertainty_factor = node.numberOr("uncertainty_factor", 1.0);
+    if (const auto factor = node.find("uncertainty_factor")) output.uncertainty_factor = factor->positiveNumber();
     if (const auto verdict = node.find("verdict")) output.verdict = verdictFrom(*verdict);
     if (const auto pattern = node.find("training_pattern")) output.pattern = patternFrom(*pattern);
     if (const auto lower = node.find("covariance_lower")) {

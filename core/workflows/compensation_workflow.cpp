@@ -620,11 +620,25 @@ Eigen::Vector3d usualReference(const MachineDescription& machine, const Observat
   return reference_mm;
 }
 
+namespace {
+/// The lines of the tables pass through a place where the machine can go.
+void requireWithinTravel(const MachineDescription& machine, const Eigen::Vector3d& reference_mm) {
+  for (int i = 0; i < 3; ++i) {
+    const LinearAxis* axis = machine.findAxis(std::string(1, "XYZ"[i]));
+    if (axis == nullptr || (reference_mm[i] >= axis->travel_mm[0] && reference_mm[i] <= axis->travel_mm[1])) continue;
+    throw InputError({machine.file, ""},
+                     fmt::format("the reference position {} {:g} mm lies outside the travel; allowed: {:g} to {:g} mm.",
+                                 axis->name, reference_mm[i], axis->travel_mm[0], axis->travel_mm[1]));
+  }
+}
+}  // namespace
+
 CompensationPlan planCompensation(const Campaign& campaign, const ObservationSet& observations,
                                   const CompensationRequest& request, JobContext& job) {
   request.validate();
   CompensationPlan plan;
   plan.state = chosenState(observations, request.state);
+  if (request.reference_mm) requireWithinTravel(campaign.machine, *request.reference_mm);
   plan.reference_mm = request.reference_mm.value_or(usualReference(campaign.machine, observations, plan.state));
   JobContext fitting = job.part(0.0, 0.7);
   const PreparedModel prepared = request.source == CompensationSource::CompletedModel
@@ -672,6 +686,8 @@ nlohmann::json CompensationPlan::json() const {
            {{"rms_before_um", jsonNumber(rms_before_unseen_um)},
             {"rms_after_um", jsonNumber(rms_after_unseen_um)},
             {"what", unseen}}},
+          {"good_enough", harm().empty()},
+          {"message", harm()},
           {"richer_model", richer_model.empty() ? nlohmann::json() : nlohmann::json(richer_model)},
           {"largest_correction_um", jsonNumber(largest_um)},
           {"limitation", limitation.empty() ? nlohmann::json() : nlohmann::json(limitation)},
@@ -679,6 +695,14 @@ nlohmann::json CompensationPlan::json() const {
           {"files", written},
           {"not_written", not_written.empty() ? nlohmann::json() : nlohmann::json(not_written)},
           {"warnings", warnings}};
+}
+
+std::string CompensationPlan::harm() const {
+  if (!rms_after_unseen_um || *rms_after_unseen_um < *rms_before_unseen_um) return {};
+  return fmt::format(
+      "On data not used for fitting the correction leaves {:.2f} µm where {:.2f} µm were measured: it must not be "
+      "used.",
+      *rms_after_unseen_um, *rms_before_unseen_um);
 }
 
 std::string CompensationPlan::summary() const {
@@ -693,6 +717,7 @@ std::string CompensationPlan::summary() const {
   } else {
     text += fmt::format("  {}\n", unseen);
   }
+  if (const std::string why = harm(); !why.empty()) text += fmt::format("  {}\n", why);
   if (!limitation.empty()) text += fmt::format("  note: {}\n", limitation);
   for (const std::string& w : warnings) text += fmt::format("  note: {}\n", w);
   for (const CompensationFile& f : files) text += fmt::format("  {}: {}. {}\n", f.name, f.title, f.convention);

@@ -87,6 +87,9 @@ struct CompensationPlan {
   std::string not_written;  ///< which controls get no table, and why; empty if nothing was written at all
   std::vector<std::string> warnings;
 
+  /// Why it must not be used: data that took no part in the fit are no better with it. Empty: they are, or there are
+  /// none.
+  [[nodiscard]] std::string harm() const;
   [[nodiscard]] nlohmann::json json() const;  ///< without the content of the files
   [[nodiscard]] std::string summary() const;
 };

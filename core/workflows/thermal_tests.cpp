@@ -52,7 +52,7 @@ Iso230Result evaluateAxis(const Iso230Request& request) {
   std::vector<AxisReading> readings;
   for (const Observation& o : set.rows) {
     if (o.use == ObservationUse::Exclude || isRotation(o.component) || axisIndex(o.component) != index) continue;
-    readings.push_back({o.time_s, o.position_mm[index], o.value, o.approach[index] < 0.0 ? -1 : 1});
+    readings.push_back({o.time_s, o.position_mm[index], o.value, o.approach[index] < 0.0 ? -1 : 1, o.point});
   }
   if (readings.empty()) {
     throw InputError(
@@ -110,6 +110,27 @@ TimeSeries seriesWithin(const TimeSeries& series, const TimeRange& range) {
   return part;
 }
 
+/// The column asked for, else that of the spindle by its name, else the only one there is. Throws InputError.
+const Signal* speedOf(const TimeSeries& series, const std::string& asked) {
+  if (!asked.empty()) return &series.at(asked);
+  std::vector<std::string> names;
+  const Signal* only = nullptr;
+  for (const Signal& s : series.signals) {
+    if (s.kind != SignalKind::Speed) continue;
+    if (s.name == "spindle_rpm") return &s;
+    names.push_back(s.name);
+    only = &s;
+  }
+  if (names.empty())
+    throw InputError({series.file, "header"}, "there is no speed column (..._rpm); allowed: spindle_rpm.");
+  if (names.size() > 1)
+    throw InputError({series.file, "header"},
+                     fmt::format("which of {} is the speed of the spindle is not known; allowed: a column spindle_rpm, "
+                                 "or --speed with one of them.",
+                                 joinedList(names)));
+  return only;
+}
+
 }  // namespace
 
 Iso230Result evaluateIso230Test(const TimeSeries& whole, const Iso230Request& request) {
@@ -153,11 +174,7 @@ Iso230Result evaluateIso230Test(const TimeSeries& whole, const Iso230Request& re
     if (!result.etve->note.empty()) result.notes.push_back(result.etve->note);
     result.diagram = drawCurves("Environmental variation (ETVE), µm or µrad", curves);
   } else {
-    const Signal* speed = nullptr;
-    for (const Signal& s : series.signals)
-      if (speed == nullptr && s.kind == SignalKind::Speed) speed = &s;
-    if (speed == nullptr)
-      throw InputError({series.file, "header"}, "there is no speed column (..._rpm); allowed: spindle_rpm.");
+    const Signal* speed = speedOf(series, request.speed);
     const std::vector<double> rpm = bridged(series.time_s, speed->values, true);
     if (std::string note = requireOneSpeedStep(series, speed->name, rpm); !note.empty()) result.notes.push_back(note);
     result.spindle = evaluateRotatingSpindle(series.time_s, rpm, components, request.fraction, request.window_s);

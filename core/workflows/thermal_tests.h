@@ -22,6 +22,7 @@ struct Iso230Request {
   std::filesystem::path observations;  ///< axis: observations.csv with readings at two positions
   std::vector<std::string> columns;    ///< displacements and tilts; empty: every _um and _urad column
   std::string ambient;                 ///< column; empty: T_room, T_ambient or none
+  std::string speed;                   ///< spindle: column; empty: spindle_rpm, or the only one
   std::string axis = "X";              ///< of the moving axis test
   double fraction = 0.9;               ///< of the end value
   double window_s = level_window_s;    ///< etve, spindle: in which a level is read

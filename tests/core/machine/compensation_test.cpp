@@ -163,11 +163,14 @@ TEST(Compensation, TablesMarkExtrapolationAndStateNothingThatWasNotMeasured) {
   EXPECT_TRUE(measured.extendsAlong(0));
   EXPECT_FALSE(measured.extendsAlong(2));
   const std::string x =
-      axisComponentsCsv(axisComponents(HandModel(), machine(), "X", {50.0, 0.0, 0.0}, 3, {}), measured);
+      axisComponentsCsv(axisComponents(HandModel(), machine(), "X", {50.0, 20.0, 0.0}, 3, {}), measured);
   EXPECT_THAT(x, ::testing::HasSubstr(",extrapolated\n0,"));
   EXPECT_THAT(x, ::testing::ContainsRegex("\n50,[^\n]*,0\n100,[^\n]*,1\n"));
+  const std::string beside =
+      axisComponentsCsv(axisComponents(HandModel(), machine(), "X", {50.0, 0.0, 0.0}, 3, {}), measured);
+  EXPECT_THAT(beside, ::testing::ContainsRegex("\n50,[^\n]*,1\n100,[^\n]*,1\n")) << "nothing was measured at y = 0";
   const std::string z =
-      axisComponentsCsv(axisComponents(HandModel(), machine(), "Z", {0.0, 0.0, 0.0}, 3, {}), measured);
+      axisComponentsCsv(axisComponents(HandModel(), machine(), "Z", {0.0, 10.0, 0.0}, 3, {}), measured);
   EXPECT_THAT(z, ::testing::HasSubstr("# nothing was measured along Z (all points lie at 0 mm)"));
   EXPECT_THAT(z, ::testing::HasSubstr("\n-10,,,,,,,,,,,,,1\n0,,,,,,,,,,,,,0\n10,,,,,,,,,,,,,1\n"));
   CompensationGridOptions options = CompensationGridOptions::travelOf(machine());

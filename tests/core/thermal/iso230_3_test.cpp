@@ -188,6 +188,71 @@ TEST(Iso2303, MovingAxisByHand) {
   EXPECT_NEAR(r.expansion_over_time_um.back(), 8.0, 0.05);
 }
 
+// Constants of points and directions are unknown: none of them may look like an expansion.
+TEST(Iso2303, MovingAxisOfSeveralPointsAndInAnyOrderOfDirections) {
+  std::vector<AxisReading> readings;
+  const auto add = [&](double t, double position, const char* point, double offset, int direction) {
+    readings.push_back(
+        {t, position, (position > 100.0 ? 9.0 : 1.0) * t / 9600.0 + offset + 0.2 * direction, direction, point});
+  };
+  for (int k = 0; k < 9; ++k) {
+    const double t = 1200.0 * k;
+    // Both of one direction first, then both of the other: the first two readings are not one of each.
+    for (const int direction : {1, 1, -1, -1}) {
+      add(t, 50.0, "F1", 0.0, direction);
+      add(t, 50.0, "F2", 35.0, direction);
+      if (k > 0) add(t, 450.0, "F3", -120.0, direction);
+      add(t, 450.0, "F4", 7.0, direction);
+    }
+  }
+  const AxisResult r = evaluateMovingAxis(readings);
+  EXPECT_NEAR(r.low.change_um, 1.0, 1e-9);
+  EXPECT_NEAR(r.high.change_um, 9.0, 1e-9) << "F3 begins too late to say it";
+  EXPECT_NEAR(r.low.reversal_um, 0.4, 1e-9);
+  EXPECT_NEAR(r.high.reversal_um, 0.4, 1e-9);
+  EXPECT_NEAR(r.high.range_um, 9.4, 1e-9);
+  EXPECT_LT(r.low.repeatability_um, 1e-6);
+  EXPECT_NEAR(r.expansion_over_time_um.back(), 8.0, 1e-9);
+  // One direction at the beginning, the other at the end.
+  std::vector<AxisReading> halves;
+  for (const double position : {50.0, 450.0})
+    for (int k = 0; k < 8; ++k) halves.push_back({600.0 * k, position, 1.0 * k, k < 4 ? 1 : -1, "F1"});
+  try {
+    (void)evaluateMovingAxis(halves);
+    ADD_FAILURE() << "the reversal was taken for an expansion";
+  } catch (const InputError& e) {
+    EXPECT_NE(std::string(e.what()).find("no point was approached from one direction both"), std::string::npos);
+  }
+}
+
+TEST(Iso2303, TheChangeOfAnAxisIsAsUncertainAsStated) {
+  constexpr int runs = 300;
+  double normalised = 0.0;
+  for (int seed = 1; seed <= runs; ++seed) {
+    Random random(static_cast<std::uint64_t>(seed));
+    std::vector<AxisReading> readings;
+    for (int k = 0; k < 12; ++k)
+      for (const int direction : {1, -1})
+        for (const double position : {50.0, 450.0})
+          readings.push_back({600.0 * k, position, random.normal(0.0, 0.4) + 0.1 * k, direction, "F1"});
+    const AxisResult r = evaluateMovingAxis(readings);
+    normalised += std::pow(r.expansion_um / r.expansion_sigma_um, 2) / runs;
+  }
+  EXPECT_NEAR(normalised, 1.0, 0.25);
+}
+
+// Most neighbours of a quiet record are equal where it is read in steps: that is no reason to be certain.
+TEST(Iso2303, ReadingsInStepsAreNoBetterThanTheirSteps) {
+  std::vector<double> time;
+  ComponentSeries z{"Z_um", "um", {}, 0.0};
+  for (int k = 0; k <= 28800; k += 4) {
+    time.push_back(k);
+    z.values.push_back(std::round(10.0 * 6.2 * std::sin(k / 5000.0)) / 10.0);
+  }
+  const EtveComponent c = evaluateEtve(time, {z}, {}, 0.0).components[0];
+  EXPECT_NEAR(c.range_sigma, 0.1 / std::sqrt(12.0) * std::sqrt(2.0), 1e-3);
+}
+
 TEST(Iso2303, ALevelOverTheWholeRecordIsRefused) {
   std::vector<double> time;
   for (int i = 0; i <= 100; ++i) time.push_back(60.0 * i);

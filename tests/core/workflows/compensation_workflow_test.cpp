@@ -110,6 +110,32 @@ TEST(CompensationPlan, StatesWhatItDoesOnValuesThatTrainedNothing) {
   EXPECT_TRUE(all.json()["unseen"]["rms_after_um"].is_number());
 }
 
+TEST(CompensationPlan, SaysWhenItDoesMoreHarmThanGood) {
+  EXPECT_EQ(planOf(campaignOf(6.0, true, 3), CompensationSource::NineParameters).harm(), "");
+  // Nothing but noise: what is fitted to it makes every point that was left out worse.
+  Campaign cold = campaignOf(0.0, false, 4);
+  Random random(5);
+  for (Observation& o : cold.observations->rows) o.value = random.normal(0, 0.3);
+  const CompensationPlan plan = planOf(cold, CompensationSource::NineParameters);
+  ASSERT_GT(*plan.rms_after_unseen_um, *plan.rms_before_unseen_um);
+  EXPECT_THAT(plan.harm(), HasSubstr("must not be used"));
+  EXPECT_THAT(plan.summary(), HasSubstr("must not be used"));
+  EXPECT_EQ(plan.json()["good_enough"], false);
+}
+
+TEST(CompensationPlan, TheLinesOfItsTablesPassWhereTheMachineCanGo) {
+  const Campaign campaign = campaignOf(0.0, false, 6);
+  CompensationRequest request;
+  request.reference_mm = Eigen::Vector3d(10.0, 10.0, 5000.0);
+  JobContext job;
+  try {
+    (void)planCompensation(campaign, *campaign.observations, request, job);
+    ADD_FAILURE() << "tables for a height of five metres";
+  } catch (const InputError& e) {
+    EXPECT_THAT(e.what(), HasSubstr("Z 5000 mm lies outside the travel; allowed: 0 to 200 mm"));
+  }
+}
+
 const CompensationFile* fileOf(const CompensationPlan& plan, const std::string& name) {
   const auto at =
       std::find_if(plan.files.begin(), plan.files.end(), [&](const CompensationFile& f) { return f.name == name; });
