@@ -171,7 +171,8 @@ Report campaignReport(const CampaignReportInput& input) {
   document.section("Provenance");
   document.facts({{"Program", fmt::format("Spindrift {}", SPINDRIFT_VERSION)},
                   {"Campaign", campaign.name},
-                  {"Fingerprint of the campaign", fingerprintOfFolder(campaign.folder)},
+                  {"Fingerprint of the campaign",
+                   input.fingerprint.empty() ? fingerprintOfFolder(campaign.folder) : input.fingerprint},
                   {"Report made", utcInWords(input.created_utc)},
                   {"Uncertainties", "one standard uncertainty (k = 1) unless stated otherwise"},
                   {"Operator", input.operator_name.empty() ? "______________________" : input.operator_name}});

@@ -39,6 +39,7 @@ struct CampaignReportInput {
   ReportFacts headlines;
   std::string created_utc;
   std::string operator_name;  ///< may be empty: a line to sign on is left
+  std::string fingerprint;    ///< of the campaign as the work began; empty: as it is now
 };
 
 /// False for the machine that stands in for one in a campaign made of a log alone.

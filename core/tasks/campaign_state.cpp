@@ -81,14 +81,44 @@ void readShared(const nlohmann::json& payload, ObservationSet& set) {
   set.setCovariances(covariances);
 }
 
+nlohmann::json instrumentsJson(const std::vector<InstrumentEvaluation>& instruments) {
+  nlohmann::json out = nlohmann::json::array();
+  for (const InstrumentEvaluation& one : instruments) {
+    nlohmann::json rejected = nlohmann::json::array();
+    for (const RejectedCapture& r : one.rejected) rejected.push_back({r.capture, r.reason});
+    out.push_back({{"instrument", one.instrument},
+                   {"rejected", std::move(rejected)},
+                   {"warnings", one.warnings},
+                   {"details", one.details},
+                   {"summary", one.summary},
+                   {"good_enough", one.good_enough}});
+  }
+  return out;
+}
+
+InstrumentEvaluation instrumentFrom(const nlohmann::json& stored) {
+  InstrumentEvaluation one;
+  one.instrument = stored.at("instrument").get<std::string>();
+  for (const auto& r : stored.at("rejected"))
+    one.rejected.push_back({r.at(0).get<std::string>(), r.at(1).get<std::string>()});
+  one.warnings = stored.at("warnings").get<std::vector<std::string>>();
+  one.details = stored.at("details");
+  one.summary = stored.at("summary").get<std::string>();
+  one.good_enough = stored.at("good_enough").get<bool>();
+  return one;
+}
+
 }  // namespace
 
 nlohmann::json payloadOf(const CampaignEvaluation& evaluation) {
-  return {{"json", evaluation.json()},
-          {"summary", evaluation.summary()},
-          {"good_enough", evaluation.good_enough},
-          {"observations", evaluation.observations.csv()},
-          {"shared_noise", sharedJson(evaluation.observations.shared)}};
+  nlohmann::json payload = {{"json", evaluation.json()},
+                            {"summary", evaluation.summary()},
+                            {"good_enough", evaluation.good_enough},
+                            {"observations", evaluation.observations.csv()},
+                            {"shared_noise", sharedJson(evaluation.observations.shared)}};
+  // Of one instrument all of it says the same.
+  if (evaluation.instruments.size() > 1) payload["instruments"] = instrumentsJson(evaluation.instruments);
+  return payload;
 }
 
 StoredEvaluation evaluationFrom(const StoredResult& result) try {
@@ -106,25 +136,28 @@ StoredEvaluation evaluationFrom(const StoredResult& result) try {
   for (const auto& w : evaluation.details.value("warnings", nlohmann::json::array())) {
     evaluation.warnings.push_back(w.get<std::string>());
   }
+  for (const auto& one : p.value("instruments", nlohmann::json::array()))
+    evaluation.instruments.push_back(instrumentFrom(one));
   return evaluation;
 } catch (const nlohmann::json::exception& e) {
   throw InputError(fmt::format("the stored evaluation cannot be read ({}); evaluate again.", e.what()));
 }
 
 std::optional<CampaignEvaluation> asWorkedOut(const StoredEvaluation& stored) {
+  CampaignEvaluation evaluation;
+  evaluation.observations = stored.observations;
+  evaluation.good_enough = stored.good_enough;
+  evaluation.instruments = stored.instruments;
+  if (!evaluation.instruments.empty()) return evaluation;
   const nlohmann::json names = stored.details.value("instruments", nlohmann::json::array());
   if (names.size() != 1) return {};
   InstrumentEvaluation instrument;
   instrument.instrument = names.front().get<std::string>();
-  instrument.observations = stored.observations;
   instrument.rejected = stored.rejected;
   instrument.warnings = stored.warnings;
   instrument.details = stored.details;
   instrument.summary = stored.summary;
   instrument.good_enough = stored.good_enough;
-  CampaignEvaluation evaluation;
-  evaluation.observations = stored.observations;
-  evaluation.good_enough = stored.good_enough;
   evaluation.instruments.push_back(std::move(instrument));
   return evaluation;
 }
@@ -193,19 +226,38 @@ std::shared_ptr<const Campaign> withoutExcluded(const Campaign& campaign, const 
   return copy;
 }
 
-std::optional<ObservationSet> observationsToFit(const Campaign& campaign, const StoredEvaluation* evaluation,
-                                                const ExcludedItems& excluded, const ClockOffsets& offsets) {
-  std::optional<ObservationSet> set = campaign.observations;
-  if (!set && evaluation != nullptr) set = evaluation->observations;
-  if (!set) return set;
+namespace {
+void exclude(ObservationSet& set, const ExcludedItems& excluded) {
   // 30,000 names are not made for nothing.
-  for (std::size_t i = 0; !excluded.empty() && i < set->rows.size(); ++i) {
-    Observation& o = set->rows[i];
+  for (std::size_t i = 0; !excluded.empty() && i < set.rows.size(); ++i) {
+    Observation& o = set.rows[i];
     if (excluded.contains(o.state + "/" + o.point + "/" + std::string(toString(o.component))))
       o.use = ObservationUse::Exclude;
   }
-  if (!campaign.observations) applyClockOffsets(*set, offsets);  // its own were moved when it was read
-  leaveOutCompensated(*set, campaign.log);
+}
+}  // namespace
+
+void applyChoices(ObservationSet& set, const ExcludedItems& excluded, const ClockOffsets& offsets) {
+  exclude(set, excluded);
+  applyClockOffsets(set, offsets);
+}
+
+std::optional<ObservationSet> observationsAtHand(const Campaign& campaign, const StoredEvaluation* evaluation,
+                                                 const ExcludedItems& excluded, const ClockOffsets& offsets) {
+  std::optional<ObservationSet> set = campaign.observations;
+  if (set) {
+    exclude(*set, excluded);  // its own clocks were moved when it was read
+  } else if (evaluation != nullptr) {
+    set = evaluation->observations;
+    applyChoices(*set, excluded, offsets);
+  }
+  return set;
+}
+
+std::optional<ObservationSet> observationsToFit(const Campaign& campaign, const StoredEvaluation* evaluation,
+                                                const ExcludedItems& excluded, const ClockOffsets& offsets) {
+  std::optional<ObservationSet> set = observationsAtHand(campaign, evaluation, excluded, offsets);
+  if (set) leaveOutCompensated(*set, campaign.log);
   return set;
 }
 

@@ -29,13 +29,15 @@ struct StoredEvaluation {
   std::vector<std::string> warnings;
   std::string summary;
   bool good_enough = true;
+  /// Each by itself, without its observations, where there are several; empty: one, or of an earlier version.
+  std::vector<InstrumentEvaluation> instruments;
 };
 
 /// Payload of a result of kind "evaluate" and back. Throws InputError: the session is damaged or another's.
 [[nodiscard]] nlohmann::json payloadOf(const CampaignEvaluation& evaluation);
 [[nodiscard]] StoredEvaluation evaluationFrom(const StoredResult& result);
-/// As it was worked out, of one instrument; nothing where several were evaluated together: what is stored does not say
-/// which of them a detail, a warning or a rejected capture belongs to.
+/// As it was worked out, the observations of all instruments together; nothing where an earlier version stored several
+/// instruments, without saying which of them a detail, a warning or a rejected capture belongs to.
 [[nodiscard]] std::optional<CampaignEvaluation> asWorkedOut(const StoredEvaluation& stored);
 
 /// Items as in Exclusion, with their reasons.
@@ -66,8 +68,15 @@ struct CampaignState {
 [[nodiscard]] ExcludedItems excludedItems(const Session& session, std::int64_t campaign);
 /// The campaign without the captures that were excluded: to be worked on.
 [[nodiscard]] std::shared_ptr<const Campaign> withoutExcluded(const Campaign& campaign, const ExcludedItems& excluded);
-/// Observations to fit: the campaign's own, else those of its evaluation; what the user excluded is marked so. Nothing
-/// if there are none.
+/// Marks what the user excluded; moves the times of observations whose clocks were not moved when they were read.
+void applyChoices(ObservationSet& set, const ExcludedItems& excluded, const ClockOffsets& offsets);
+/// The campaign's own observations, else those of its evaluation; what the user excluded is marked so. Nothing if there
+/// are none.
+[[nodiscard]] std::optional<ObservationSet> observationsAtHand(const Campaign& campaign,
+                                                               const StoredEvaluation* evaluation,
+                                                               const ExcludedItems& excluded,
+                                                               const ClockOffsets& offsets);
+/// Observations to fit: those at hand, what was taken while compensating marked as excluded.
 [[nodiscard]] std::optional<ObservationSet> observationsToFit(const Campaign& campaign,
                                                               const StoredEvaluation* evaluation,
                                                               const ExcludedItems& excluded,

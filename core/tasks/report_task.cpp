@@ -46,6 +46,7 @@ StoredResults storedOf(const TaskGraph& graph) {
   out.warm_up = payload("check-warm-up");
   out.jogs = payload("check-jogs");
   out.repeatability = payload("check-repeatability");
+  if (const TaskKind* fit = &taskKind("fit", graph.facts()); fit->told) out.fit = payload("fit");
   out.thermal = payload("thermal");
   out.compensation = payload("compensation");
   out.log_compensation = payload("log-compensation");
@@ -87,6 +88,10 @@ ReportTask ReportTask::of(const TaskGraph& graph, const ExcludedItems& excluded)
   const StoredResult* searched = graph.latest("discrepancy");
   if (searched != nullptr && graph.status("discrepancy").current)
     task.options.story = std::make_shared<const nlohmann::json>(searched->payload);
+  task.options.choices = [excluded, clocks = clockOffsetsOf(session, id)](ObservationSet& set) {
+    applyChoices(set, excluded, clocks);
+  };
+  task.options.fingerprint = session.inputs(id).value("files", std::string());
   task.options.search.accept = asked.effects.added;
   task.options.search.reject = asked.effects.rejected;
   task.options.fit = asked.fit.options();

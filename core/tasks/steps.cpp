@@ -5,12 +5,15 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <set>
 #include <system_error>
 
 #include "core/base/count_text.h"
 #include "core/base/csv.h"
 #include "core/base/error.h"
+#include "core/machine/observation.h"
+#include "core/scanning/painted_mask.h"
 #include "core/tasks/task_options.h"
 #include "core/workflows/instrument_checks.h"
 #include "core/workflows/measurement_plan.h"
@@ -54,9 +57,17 @@ std::set<std::string> excludedItems(const TaskGraph& graph) {
   return items;
 }
 
+/// Not an observation ("M1/F3/EX"), not the mask of a scan, and not a touch.
+bool namesAFile(const std::string& item) {
+  if (isMaskItem(item) || item.starts_with("touch/")) return false;
+  const std::size_t slash = item.rfind('/');
+  return slash == std::string::npos || !componentFromString(item.substr(slash + 1));
+}
+
 struct Checked {
   std::size_t all = 0;
   std::size_t bad = 0;
+  std::size_t settled = 0;  ///< rows of the list that it looked at, or that were taken out
   const char* what = "capture";
 };
 
@@ -66,10 +77,13 @@ Checked checked(const TaskGraph& graph) {
   Checked out;
   const nlohmann::json& payload = graph.latest("check")->payload;
   const std::set<std::string> excluded = excludedItems(graph);
+  std::set<std::string> files;
   const auto count = [&](const char* list, const char* name, auto isGood) {
     for (const nlohmann::json& entry : payload.value(list, nlohmann::json::array())) {
+      const std::string file = entry.value(name, std::string());
       ++out.all;
-      if (!isGood(entry) && !excluded.contains(entry.value(name, std::string()))) ++out.bad;
+      files.insert(file);
+      if (!isGood(entry) && !excluded.contains(file)) ++out.bad;
     }
   };
   count("captures", "image", [](const nlohmann::json& e) { return e.value("good", true); });
@@ -81,8 +95,12 @@ Checked checked(const TaskGraph& graph) {
     for (const auto& [state, number] : payload["touches"].items()) {
       out.all += number.get<std::size_t>();
       if (state == "rejected" || state == "missing") out.bad += number.get<std::size_t>();
+      if (state != "missing") out.settled += number.get<std::size_t>();
     }
+    return out;
   }
+  std::copy_if(excluded.begin(), excluded.end(), std::inserter(files, files.end()), namesAFile);
+  out.settled = files.size();
   return out;
 }
 
@@ -106,10 +124,9 @@ StepReport capture(const TaskGraph& graph, const CaptureCounts& counts) {
   StepReport step = ofTask(graph, "check", how);
   if (graph.latest("check") == nullptr) return step;
   const Checked found = checked(graph);
-  // What was taken out was not looked at, and need not be.
-  const std::size_t wanted = counts.to_check - std::min(counts.to_check, excludedItems(graph).size());
-  if (step.state == StepState::Outdated && wanted > found.all) {
-    return {StepState::InProgress, fmt::format("{} of {} captures are checked.", found.all, wanted), found.all, wanted};
+  if (step.state == StepState::Outdated && counts.to_check > found.settled) {
+    return {StepState::InProgress, fmt::format("{} of {} captures are checked.", found.settled, counts.to_check),
+            found.settled, counts.to_check};
   }
   if (step.state != StepState::Current) return step;
   if (found.bad == 0)

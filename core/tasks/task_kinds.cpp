@@ -14,6 +14,7 @@
 #include "core/session/fingerprint.h"
 #include "core/tasks/report_task.h"
 #include "core/tasks/scan_check_payload.h"
+#include "core/tasks/second_campaign.h"
 #include "core/tasks/task_graph.h"
 #include "core/tasks/task_options.h"
 #include "core/tasks/task_work.h"
@@ -377,7 +378,7 @@ struct Simulation {
   }
   static void addInputs(const TaskGraph& graph, nlohmann::json& inputs) {
     const std::string name = simulatorOf(graph);
-    inputs["simulator"] = name.empty() ? std::string() : simulatorFingerprint(simulatorFile(graph.session(), name));
+    inputs["simulator"] = name.empty() ? std::string() : simulatorFingerprint(placeNamed(graph.session(), name));
   }
   /// A search that wrote a new version of its simulator counts as one with the version while that is at hand.
   static void asNow(Provenance& then, const ResultOrigin& now) {
@@ -418,15 +419,17 @@ struct Compensation {
 
 struct Verify {
   static VerifyTaskOptions options(const TaskGraph& graph) { return {chosenFor<VerifyOptions>(graph)}; }
-  static Work<VerifyResult> work(const VerifyTaskOptions& options, const TaskGraph& /*graph*/, const TaskInputs& in) {
+  static std::filesystem::path secondFolder(const TaskGraph& graph, const VerifyOptions& options) {
+    return options.after.empty() ? std::filesystem::path() : placeNamed(graph.session(), options.after);
+  }
+  static Work<VerifyResult> work(const VerifyTaskOptions& options, const TaskGraph& graph, const TaskInputs& in) {
     if (options.options.after.empty())
       throw InputError("Choose the campaign that was measured with the compensation on first.");
-    return [campaign = included(in), before = in.observations, options = options.options](JobContext& job, TaskOutput) {
-      // One campaign may hold both: then what was taken while compensating must not be left out of the second set.
-      const Campaign second =
-          std::filesystem::path(options.after) == campaign->folder ? *campaign : Campaign::read(options.after);
-      const ObservationSet after = allObservationsOf(second, {}, {}, job);
-      return verifyCampaigns(*campaign, *before, second, after, options.request);
+    // One campaign may hold both: what was taken while compensating is in the second set.
+    return [campaign = included(in), before = in.observations, request = options.options.request,
+            second = SecondCampaign::of(graph, in, secondFolder(graph, options.options))](JobContext& job, TaskOutput) {
+      const SecondCampaign::Measured after = second.measured(job);
+      return verifyCampaigns(*campaign, *before, *after.campaign, after.observations, request);
     };
   }
   static nlohmann::json payload(const VerifyResult& result) { return result.json(); }
@@ -436,10 +439,8 @@ struct Verify {
                                   : std::string();
   }
   static void addInputs(const TaskGraph& graph, nlohmann::json& inputs) {
-    const std::string folder = chosenFor<VerifyOptions>(graph).after;
-    inputs["after"] = "";
-    for (const CampaignRecord& record : graph.session().campaigns())
-      if (record.id != graph.campaign() && record.folder == folder) inputs["after"] = record.fingerprint;
+    inputs["after"] =
+        fingerprintOfSecond(graph.session(), graph.campaign(), secondFolder(graph, chosenFor<VerifyOptions>(graph)));
   }
 };
 
@@ -457,7 +458,8 @@ struct WriteReport {
   static void addInputs(const TaskGraph& graph, nlohmann::json& inputs) {
     // It has to be written again when what it tells is another.
     for (const TaskKind& kind : taskKinds())
-      if (kind.told) inputs[std::string(kind.id)] = graph.fingerprintOf(std::string(kind.id));
+      if (kind.told && &taskKind(kind.id, graph.facts()) == &kind)
+        inputs[std::string(kind.id)] = graph.fingerprintOf(std::string(kind.id));
     // What is printed word by word, beside the notes (an option).
     Fingerprint reasons;
     for (const Exclusion& exclusion : graph.session().exclusions(graph.campaign()))
@@ -520,12 +522,14 @@ constexpr std::array kinds{
                          .title = "Fitting all cycles",
                          .result = "the fitted model",
                          .of_observations = true,
+                         .told = true,
                          .is_for = ofTouches,
                          .belongs = moreThanALog,
                          .made_from = fromCaptures}),
     declared<FitAxisErrors>({.id = "fit",
                              .title = "Finding the six errors",
                              .of_observations = true,
+                             .told = true,
                              .is_for = ofScans,
                              .belongs = moreThanALog,
                              .made_from = fromCaptures}),

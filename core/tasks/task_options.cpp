@@ -10,6 +10,7 @@
 
 #include "core/base/atomic_file.h"
 #include "core/base/error.h"
+#include "core/base/sha256.h"
 #include "core/session/fingerprint.h"
 #include "core/workflows/campaign_series.h"
 
@@ -65,10 +66,14 @@ void EffectOptions::consider(const std::string& id, bool considered) {
 std::shared_ptr<const Campaign> EffectOptions::applied(std::shared_ptr<const Campaign> campaign,
                                                        const std::filesystem::path& file) const {
   if (!effects.is_object()) return campaign;
+  const std::string text = effects.dump(2) + "\n";
+  constexpr std::size_t digits = 16;
+  const std::filesystem::path version =
+      file.parent_path() / fmt::format("{}-{}.json", file.stem().string(), sha256(text).substr(0, digits));
   std::filesystem::create_directories(file.parent_path());
-  writeFileAtomically(file, effects.dump(2) + "\n");
+  if (!std::filesystem::exists(version)) writeFileAtomically(version, text);
   auto copy = std::make_shared<Campaign>(*campaign);
-  copy->effects = std::filesystem::absolute(file);
+  copy->effects = std::filesystem::absolute(version);
   return copy;
 }
 
@@ -80,18 +85,18 @@ SimulationOptions SimulationOptions::of(const Session& session, std::int64_t cam
   if (kept && kept->is_string()) {
     options.simulator = kept->get<std::string>();
   } else if (!data.simulator.empty()) {
-    options.simulator = simulatorName(session, data.path(data.simulator.string()));
+    options.simulator = placeName(session, data.path(data.simulator.string()));
   }
   return options;
 }
 
-std::string simulatorName(const Session& session, const std::filesystem::path& file) {
+std::string placeName(const Session& session, const std::filesystem::path& file) {
   const std::filesystem::path relative = whole(file).lexically_relative(whole(session.folder()));
   const bool within = !relative.empty() && *relative.begin() != "..";
   return within ? relative.generic_string() : whole(file).generic_string();
 }
 
-std::filesystem::path simulatorFile(const Session& session, const std::string& name) {
+std::filesystem::path placeNamed(const Session& session, const std::string& name) {
   return whole(session.folder()) / name;
 }
 

@@ -146,7 +146,7 @@ struct CompensationChoice {
 struct VerifyOptions {
   static constexpr auto key = option_keys::verify;
   VerifyRequest request;
-  std::string after;  ///< folder of the second campaign; empty: not chosen
+  std::string after;  ///< folder of the second campaign, as `placeName` calls it; empty: not chosen
 
   template <class Options, class Visitor>
   static void fields(Options& o, const Visitor& visit) {
@@ -183,10 +183,11 @@ struct EffectOptions {
   [[nodiscard]] bool considers(const std::string& id) const;
   /// Takes an effect out of both lists, or puts it among the rejected.
   void consider(const std::string& id, bool considered);
-  /// The file in the session's folder that holds the effects as edited.
+  /// The file in the session's folder after which those are named that hold the effects as edited.
   [[nodiscard]] static std::filesystem::path file(const Session& session, std::int64_t campaign);
-  /// The campaign with the effects as edited, which are put down in `file`; the campaign itself if none were. Any
-  /// thread. Throws InputError if they cannot be written.
+  /// The campaign with the effects as edited; the campaign itself if none were. They are put down beside `file` under
+  /// the name of their content: work that was begun with other effects goes on with those. Any thread. Throws
+  /// InputError if they cannot be written.
   [[nodiscard]] std::shared_ptr<const Campaign> applied(std::shared_ptr<const Campaign> campaign,
                                                         const std::filesystem::path& file) const;
 };
@@ -270,7 +271,7 @@ struct SimulationOptions {
       visit("effects", o.effects);
     }
   };
-  /// As `simulatorName` calls it: chosen or written last, else named by campaign.json; or empty.
+  /// As `placeName` calls it: chosen or written last, else named by campaign.json; or empty.
   std::string simulator;
   std::string version;  ///< the name of the new version that was written; empty: none
   std::string written;  ///< what that was (simulatorFingerprint)
@@ -285,9 +286,9 @@ struct SimulationOptions {
     visit("choice", o.choice);
   }
 };
-/// What the session calls a simulator.json: relative to its folder, if it lies there.
-[[nodiscard]] std::string simulatorName(const Session& session, const std::filesystem::path& file);
-[[nodiscard]] std::filesystem::path simulatorFile(const Session& session, const std::string& name);
+/// What the session calls a file or folder: relative to its own folder, if it lies there, so that it may be moved.
+[[nodiscard]] std::string placeName(const Session& session, const std::filesystem::path& file);
+[[nodiscard]] std::filesystem::path placeNamed(const Session& session, const std::string& name);
 /// SHA-256 of a simulator.json; empty where it cannot be read.
 [[nodiscard]] std::string simulatorFingerprint(const std::filesystem::path& file);
 

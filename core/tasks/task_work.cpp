@@ -23,7 +23,7 @@ TaskInputs TaskInputs::of(const Session& session, const CampaignState& state) {
 SimulationTask SimulationTask::of(const TaskGraph& graph, const TaskInputs& inputs) {
   const SimulationOptions options = SimulationOptions::of(graph.session(), graph.campaign(), graph.data());
   if (options.simulator.empty()) throw InputError(graph.status("simulation").reason);
-  return {simulatorFile(graph.session(), options.simulator), chosen<EffectOptions>(graph.session(), graph.campaign()),
+  return {placeNamed(graph.session(), options.simulator), chosen<EffectOptions>(graph.session(), graph.campaign()),
           EffectOptions::file(graph.session(), graph.campaign()), withoutExcluded(*inputs.campaign, inputs.excluded),
           inputs.observations};
 }

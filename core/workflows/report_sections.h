@@ -24,6 +24,7 @@ struct StoredResults {
   nlohmann::json warm_statement;  ///< {"settled":true,"by":"operator"}
   nlohmann::json jogs;            ///< {"passed","reason"}
   nlohmann::json repeatability;   ///< {"passed","reason"}
+  nlohmann::json fit;             ///< of touches (cyclesJson) or scans: told in place of the one under usual options
   nlohmann::json thermal;         ///< IdentifyResult::json
   nlohmann::json compensation;    ///< CompensationPlan::json
   /// CompensateResult::json: the control's compensator run over the log.

@@ -13,6 +13,7 @@
 #include "core/reporting/heatmap_picture.h"
 #include "core/reporting/plot_picture.h"
 #include "core/reporting/report_wording.h"
+#include "core/session/fingerprint.h"
 #include "core/session/session.h"
 #include "core/workflows/compensated_data.h"
 #include "core/workflows/discrepancy_story.h"
@@ -72,6 +73,36 @@ void addState(Report& document, const Campaign& campaign, const ObservationSet& 
   }
 }
 
+/// The model that was fitted in a session in the place of the one under the usual options: what the step Model shows is
+/// what is reported.
+void tellStoredFit(std::vector<InstrumentEvaluation>& instruments, const StoredResults& stored) {
+  if (!stored.fit.is_object() || !stored.fit.contains("cycles")) return;
+  const bool of_touches = stored.fit.contains("artefact");
+  for (InstrumentEvaluation& one : instruments) {
+    if (one.instrument != (of_touches ? "touch_probe" : "profiler") || !one.details.is_object()) continue;
+    nlohmann::json fit = stored.fit;
+    if (of_touches) {
+      // Those of other artefacts stay.
+      const nlohmann::json artefact = fit.at("artefact");
+      nlohmann::json cycles = fit.at("cycles");
+      for (const nlohmann::json& cycle : one.details.value("cycles", nlohmann::json::array()))
+        if (cycle.value("artefact", nlohmann::json()) != artefact) cycles.push_back(cycle);
+      fit.erase("cycles");
+      nlohmann::json artefacts = one.details.value("artefacts", nlohmann::json::array());
+      for (nlohmann::json& other : artefacts)
+        if (other.value("artefact", nlohmann::json()) == artefact) other.update(fit);
+      one.details["cycles"] = std::move(cycles);
+      one.details["artefacts"] = std::move(artefacts);
+    } else {
+      one.details.update(fit);
+    }
+    const auto changed = stored.changed.find("fit");
+    if (changed != stored.changed.end())
+      one.warnings.push_back(fmt::format(
+          "The parameters are those of an outdated model. Changed since it was fitted: {}.", changed->second));
+  }
+}
+
 /// Lines for the first page from what a session keeps.
 void addHeadlines(CampaignReportInput& input, const StoredResults& stored) {
   const auto add = [&](const char* title, const char* kind, const std::string& text) {
@@ -95,6 +126,7 @@ Report reportOfCampaign(const Campaign& campaign, const ReportOptions& options, 
   CampaignReportInput input;
   input.campaign = &campaign;
   input.created_utc = utcNow();
+  input.fingerprint = options.fingerprint.empty() ? fingerprintOfFolder(campaign.folder) : options.fingerprint;
   input.operator_name = options.operator_name;
   input.exclusions = options.exclusions;
   input.notes = options.notes;
@@ -104,8 +136,10 @@ Report reportOfCampaign(const Campaign& campaign, const ReportOptions& options, 
   if (has_captures) {
     CampaignEvaluation evaluation =
         options.evaluated ? *options.evaluated : evaluateCampaign(campaign, options.evaluate, evaluating);
+    if (!options.evaluated && options.choices) options.choices(evaluation.observations);
     input.instruments = std::move(evaluation.instruments);
     input.observations = std::move(evaluation.observations);
+    tellStoredFit(input.instruments, options.stored);
   }
   if (!options.observations_file.empty()) {
     input.observations = ObservationSet::read(options.observations_file);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -30,6 +31,9 @@ struct ReportOptions {
   std::vector<std::pair<std::string, std::string>> exclusions;
   std::vector<std::string> notes;
   StoredResults stored;  ///< of a session; shown as they are
+  /// What the user excluded and whose clocks were moved, for observations that are evaluated here; none: nothing.
+  std::function<void(ObservationSet&)> choices;
+  std::string fingerprint;  ///< of the campaign when the work started; empty: taken then
   /// DiscrepancyStory::json of a session: told in place of a new search; null: search.
   std::shared_ptr<const nlohmann::json> story;
 };

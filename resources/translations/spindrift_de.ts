@@ -11564,6 +11564,34 @@ endgültig fehlgeschlagen: {}</translation>
         <source>The reference of the commands is in the English manual.</source>
         <translation>Die Referenz der Befehle steht im englischen Handbuch.</translation>
     </message>
+    <message>
+        <source>No temperature of {} was logged (T_{}_degC): with every kelvin it warms, the expansion of all three screws comes out {:.1f} µm/m too small, beyond the stated uncertainty.</source>
+        <translation>Für {} wurde keine Temperatur protokolliert (T_{}_degC): Mit jedem Kelvin Erwärmung ergibt sich die Ausdehnung aller drei Kugelgewindetriebe um {:.1f} µm/m zu klein, über die angegebene Unsicherheit hinaus.</translation>
+    </message>
+    <message>
+        <source>{} was up to {:.1f} K warmer in one cycle than in another, but the machine file gives no expansion_um_per_m_K of it: its own expansion is missing in the expansion of all three screws.</source>
+        <translation>{} war in einem Zyklus bis zu {:.1f} K wärmer als in einem anderen, aber die Maschinendatei nennt kein expansion_um_per_m_K dafür: Die eigene Ausdehnung fehlt in der Ausdehnung aller drei Kugelgewindetriebe.</translation>
+    </message>
+    <message>
+        <source>at {} mm no point was approached from one direction both at the beginning and at the end of the test; allowed: the same approaches in the first and in the last cycle.</source>
+        <translation>bei {} mm wurde kein Punkt am Anfang und am Ende der Prüfung aus derselben Richtung angefahren; zulässig: dieselben Anfahrten im ersten und im letzten Zyklus.</translation>
+    </message>
+    <message>
+        <source>On data not used for fitting the correction leaves {:.2f} µm where {:.2f} µm were measured: it must not be used.</source>
+        <translation>Bei Daten, die nicht zur Anpassung dienten, lässt die Korrektur {:.2f} µm übrig, wo {:.2f} µm gemessen wurden: Sie darf nicht verwendet werden.</translation>
+    </message>
+    <message>
+        <source>The parameters are those of an outdated model. Changed since it was fitted: {}.</source>
+        <translation>Die Parameter sind die eines veralteten Modells. Geändert seit der Anpassung: {}.</translation>
+    </message>
+    <message>
+        <source>the reference position {} {:g} mm lies outside the travel; allowed: {:g} to {:g} mm.</source>
+        <translation>die Bezugsposition {} {:g} mm liegt außerhalb des Verfahrwegs; zulässig: {:g} bis {:g} mm.</translation>
+    </message>
+    <message>
+        <source>which of {} is the speed of the spindle is not known; allowed: a column spindle_rpm, or --speed with one of them.</source>
+        <translation>welche von {} die Drehzahl der Spindel ist, ist nicht bekannt; zulässig: eine Spalte spindle_rpm oder --speed mit einer davon.</translation>
+    </message>
 </context>
 <context>
     <name>files</name>
@@ -23871,6 +23899,10 @@ ihrem Ordner und führen nicht hinaus.
     <message>
         <source>Pane %1</source>
         <translation>Feld %1</translation>
+    </message>
+    <message>
+        <source>%1 is shown as it was worked out before. Changed since: %2.</source>
+        <translation>%1 ist gezeigt wie zuvor berechnet. Geändert seitdem: %2.</translation>
     </message>
 </context>
 <context>

@@ -219,7 +219,7 @@ void JobRunner::cancelAll() {
 }
 
 void JobRunner::cancelOfSession() {
-  for (const JobQueue queue : {JobQueue::Work, JobQueue::Display}) {
+  for (const JobQueue queue : {JobQueue::Work, JobQueue::Display, JobQueue::Reading, JobQueue::Files}) {
     lane(queue).queue.clear();
     if (lane(queue).current != nullptr) lane(queue).current->thread.request_stop();
   }

@@ -4,11 +4,11 @@
 //   GUI thread    run(job) ------------------------------------------> apply()  (or failed(sentence), cancelled())
 //   worker                  work(context) = compute on copies, return apply
 //
-// Three queues, each with a thread of its own: long work runs one after another, what is only to be shown (a picture
-// that was chosen) never waits for it, and what runs for hours beside the work of the day (a batch) keeps neither from
-// running. A job with the `key` of an older one of its queue takes its place: the older is
-// not wanted any more. Cancelling a job that waits takes it out; one that runs is asked to stop, and nothing of it is
-// applied.
+// Queues, each with a thread of its own: long work runs one after another. What is only to be shown and is quick (a
+// picture that was chosen) waits neither for that nor for what takes a while to read, nor for files that are held
+// against what the session knows of them. What runs for hours beside the work of the day (a batch) keeps none of these
+// from running. A job with the `key` of an older one of its queue takes its place: the older is not wanted any more.
+// Cancelling a job that waits takes it out; one that runs is asked to stop, and nothing of it is applied.
 #pragma once
 
 #include <QObject>
@@ -27,7 +27,14 @@
 
 namespace spindrift::gui {
 
-enum class JobQueue { Work, Display, Batch };
+/// In the order in which the job bar tells of them.
+enum class JobQueue {
+  Work,
+  Display,  ///< pictures
+  Reading,  ///< details of what is stored, documents, a source that is listened to
+  Files,    ///< hashes of all files
+  Batch,
+};
 
 struct Job {
   QString title;  ///< "Evaluating 104 images"
@@ -100,7 +107,7 @@ class JobRunner : public QObject {
   void startNext(JobQueue queue);
   void complete(JobQueue queue);
 
-  std::array<Lane, 3> lanes_;
+  std::array<Lane, 5> lanes_;
   int last_id_ = 0;
   QTimer poll_;
 };

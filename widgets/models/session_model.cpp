@@ -420,10 +420,6 @@ EffectOptions SessionModel::effects() const {
   return session_ == nullptr ? EffectOptions() : chosen<EffectOptions>(*session_, state_.id);
 }
 
-std::filesystem::path SessionModel::effectsFile() const {
-  return session_ == nullptr ? std::filesystem::path() : EffectOptions::file(*session_, state_.id);
-}
-
 std::string SessionModel::draftKey(const std::string& name) const {
   return campaignKey("draft/" + name);
 }

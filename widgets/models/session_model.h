@@ -134,6 +134,8 @@ class SessionModel : public QObject {
   [[nodiscard]] TaskGraph tasks() const;
   /// What tasks of the campaign at hand, which there must be, work on.
   [[nodiscard]] TaskInputs taskInputs() const;
+  /// Work on a task of the campaign at hand runs or waits.
+  [[nodiscard]] bool isRunning(const std::string& task) const { return ledger_.running(state_.id, task); }
   /// Takes an earlier result that is what the task would give now as the latest. False: there is none.
   bool takeEarlier(const std::string& kind);
   /// Tells the tasks that work on a result has been asked for, and how it ended when nothing is stored; see taskJob().
@@ -186,9 +188,8 @@ class SessionModel : public QObject {
   /// it for all campaigns together: that stands where a campaign has nothing of its own.
   [[nodiscard]] std::string campaignKey(const std::string& key) const;
   [[nodiscard]] nlohmann::json campaignSetting(const std::string& key, const nlohmann::json& otherwise) const;
-  /// What the user decided about effects for the campaign at hand; and the file of the effects as edited.
+  /// What the user decided about effects for the campaign at hand.
   [[nodiscard]] EffectOptions effects() const;
-  [[nodiscard]] std::filesystem::path effectsFile() const;
   /// What was typed and is not applied yet, for the campaign at hand: on the disk with every change, so that no other
   /// page, campaign or session and no crash loses it; see Draft (widgets/commands). {"base": what was being edited,
   /// "typed": …}; null: nothing.

@@ -137,7 +137,7 @@ void Page::runAlone(const std::string& task) {
 
 void Page::showAgain(const QString& title, const std::string& task) {
   try {
-    display(title,
+    enqueue(title, JobQueue::Reading,
             [this, detail = detailOfTask(session(), task, taskInputs())](JobContext& job) -> std::function<void()> {
               return [this, now = detail(job)] {
                 if (const TaskGiven* given = now()) keepGiven(*given);
@@ -154,8 +154,12 @@ void Page::run(const QString& title, Work work) {
 }
 
 void Page::display(const QString& title, Work work) {
+  enqueue(title, JobQueue::Display, std::move(work));
+}
+
+void Page::enqueue(const QString& title, JobQueue queue, Work work) {
   Job job = jobOf(title, std::move(work));
-  job.queue = JobQueue::Display;
+  job.queue = queue;
   job.key = (stepTitle(step_) + QLatin1Char('/') + title).toStdString();
   context_.jobs.run(std::move(job));
 }

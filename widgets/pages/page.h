@@ -84,6 +84,8 @@ class Page : public QWidget {
   void run(const QString& title, Work work);
   /// Reads or works out again what is only to be shown, in place of what was to be shown before.
   void display(const QString& title, Work work);
+  /// The same in another queue: what was asked for before under this title is not wanted any more.
+  void enqueue(const QString& title, JobQueue queue, Work work);
   /// In the callout.
   void showFailure(const QString& sentence);
   /// Wires a hover signal to the hint line.

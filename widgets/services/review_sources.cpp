@@ -1,28 +1,44 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "widgets/services/review_sources.h"
 
+#include <algorithm>
+
 #include "core/base/error.h"
+#include "core/tasks/task_work.h"
 
 namespace spindrift::gui {
 namespace {
 
-std::shared_ptr<ReviewSource> readOther(SessionModel& session, std::int64_t id) {
-  const CampaignRecord record = session.session()->campaign(id);
-  auto source = std::make_shared<ReviewSource>();
-  source->campaign = std::make_shared<const Campaign>(Campaign::read(record.folder));
-  std::optional<ObservationSet> observations = source->campaign->observations;
-  if (!observations) {
-    if (const auto stored = session.session()->latestResult(id, "evaluate"))
-      observations = evaluationFrom(*stored).observations;
+/// What has changed since a result that is shown was made.
+std::vector<std::string> changesOf(const TaskGraph& tasks) {
+  std::vector<std::string> changed;
+  for (const char* kind : {"evaluate", "discrepancy"}) {
+    const StoredResult* result = tasks.latest(kind);
+    if (result == nullptr) continue;
+    for (std::string& what : tasks.changes(*result))
+      if (std::find(changed.begin(), changed.end(), what) == changed.end()) changed.push_back(std::move(what));
   }
-  if (!observations) return source;
-  std::set<std::string> excluded;
-  for (const Exclusion& e : session.session()->exclusions(id)) excluded.insert(e.item);
-  for (Observation& o : observations->rows)
-    if (excluded.contains(o.state + "/" + o.point + "/" + std::string(toString(o.component))))
-      o.use = ObservationUse::Exclude;
-  source->observations = std::make_shared<const ObservationSet>(std::move(*observations));
-  return source;
+  return changed;
+}
+
+/// As it would be if it were at hand.
+void readOther(const Session& session, std::int64_t id, ReviewSource& source) {
+  const CampaignState state = CampaignState::read(session, id);
+  source.campaign = withoutExcluded(*state.campaign, state.excluded);
+  source.observations = TaskInputs::of(session, state).observations;
+  const TaskLedger nothing_runs;
+  const TaskGraph tasks = state.tasks(session, nothing_runs);
+  source.changed = changesOf(tasks);
+  if (const StoredResult* story = tasks.latest("discrepancy"))
+    source.discrepancy = std::make_shared<const nlohmann::json>(story->payload);
+}
+
+void readOwn(const SessionModel& session, ReviewSource& source) {
+  source.campaign = session.snapshot().campaign;
+  source.observations = session.observations();
+  source.changed = changesOf(session.tasks());
+  if (const StoredResult* story = session.latest("discrepancy"))
+    source.discrepancy = std::make_shared<const nlohmann::json>(story->payload);
 }
 
 }  // namespace
@@ -61,20 +77,12 @@ std::vector<std::pair<std::int64_t, QString>> ReviewSources::campaigns() const {
 std::shared_ptr<const ReviewSource> ReviewSources::source(std::int64_t id) {
   const auto found = read_.find(id);
   if (found != read_.end()) return found->second;
-  std::shared_ptr<ReviewSource> source;
+  auto source = std::make_shared<ReviewSource>();
   try {
     if (id == session_.campaignId()) {
-      source = std::make_shared<ReviewSource>();
-      source->campaign = session_.snapshot().campaign;
-      source->observations = session_.observations();
+      readOwn(session_, *source);
     } else {
-      source = readOther(session_, id);
-    }
-    if (id == session_.campaignId()) {
-      if (const StoredResult* story = session_.latest("discrepancy"))
-        source->discrepancy = std::make_shared<const nlohmann::json>(story->payload);
-    } else if (auto story = session_.session()->latestResult(id, "discrepancy")) {
-      source->discrepancy = std::make_shared<const nlohmann::json>(std::move(story->payload));
+      readOther(*session_.session(), id, *source);
     }
     source->id = id;
     source->name = QString::fromStdString(source->campaign->name);

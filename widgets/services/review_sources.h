@@ -25,6 +25,8 @@ struct ReviewSource {
   std::vector<ScanCapture> scans;                      ///< empty without a profiler
   /// The stored search for what the simulation lacks; null if there was none.
   std::shared_ptr<const nlohmann::json> discrepancy;
+  /// What has changed since what is shown was worked out; empty: it holds.
+  std::vector<std::string> changed;
 
   /// Predictions are made once, by the job that first asks for them.
   [[nodiscard]] const ReviewPrediction& simulation() const;

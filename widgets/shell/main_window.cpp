@@ -474,7 +474,7 @@ void MainWindow::verifyFiles() {
   Job job;
   job.title = tr("Checking files for changes");
   job.quiet = true;
-  job.queue = JobQueue::Display;
+  job.queue = JobQueue::Files;
   job.key = "files";
   job.work = [this, campaigns = session_.campaigns(),
               session = session_.sessionNumber()](JobContext& context) -> std::function<void()> {

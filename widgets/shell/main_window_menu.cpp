@@ -57,7 +57,7 @@ void MainWindow::openTranslatedManual() {
   }
   Job job;
   job.title = tr("Setting the manual");
-  job.queue = JobQueue::Display;
+  job.queue = JobQueue::Reading;
   job.work = [this, file = translatedManualFile()](JobContext& context) -> std::function<void()> {
     writeTranslatedManual(file, context);
     return [this, file] { openManual(file); };

@@ -13,7 +13,7 @@ std::string simulatorKey(std::int64_t campaign) {
 }
 
 std::filesystem::path simulatorFile(const SessionModel& session, const std::string& name) {
-  return spindrift::simulatorFile(*session.session(), name);
+  return placeNamed(*session.session(), name);
 }
 
 std::string currentSimulator(const SessionModel& session) {

@@ -56,9 +56,38 @@ TEST(CampaignState, AnEvaluationOfOneInstrumentComesBackAsItWasWorkedOut) {
   EXPECT_EQ(after->instruments[0].rejected[0].reason, "blurred");
   EXPECT_EQ(after->observations.rows.size(), 4U);
   EXPECT_FALSE(after->good_enough);
-  before.instruments.push_back(instrument);
-  stored.payload = payloadOf(before);
-  EXPECT_FALSE(asWorkedOut(evaluationFrom(stored)).has_value()) << "of two, nobody knows what belongs to which";
+}
+
+TEST(CampaignState, EvaluationsOfSeveralInstrumentsComeBackEachByItself) {
+  CampaignEvaluation before = evaluation();
+  InstrumentEvaluation microscope;
+  microscope.instrument = "microscope";
+  microscope.rejected = {{"captures/images/0.jpg", "blurred"}};
+  microscope.details = {{"pixel_um", 1.5}};
+  InstrumentEvaluation probe;
+  probe.instrument = "touch_probe";
+  probe.warnings = {"two touches of H1 are missing."};
+  probe.details = {{"cycles", {{{"cycle", "C1"}}}}};
+  probe.summary = "six cycles\n";
+  probe.good_enough = false;
+  before.instruments = {microscope, probe};
+  before.good_enough = false;
+  StoredResult stored;
+  stored.payload = nlohmann::json::parse(payloadOf(before).dump());
+  const auto after = asWorkedOut(evaluationFrom(stored));
+  ASSERT_TRUE(after.has_value());
+  ASSERT_EQ(after->instruments.size(), 2U);
+  EXPECT_EQ(after->json(), before.json());
+  EXPECT_EQ(after->instruments[0].rejected[0].capture, "captures/images/0.jpg");
+  EXPECT_TRUE(after->instruments[0].good_enough);
+  EXPECT_EQ(after->instruments[1].instrument, "touch_probe");
+  EXPECT_EQ(after->instruments[1].warnings, probe.warnings);
+  EXPECT_EQ(after->instruments[1].details, probe.details);
+  EXPECT_EQ(after->instruments[1].summary, probe.summary);
+  EXPECT_FALSE(after->instruments[1].good_enough);
+  EXPECT_EQ(after->observations.rows.size(), 4U);
+  stored.payload.erase("instruments");
+  EXPECT_FALSE(asWorkedOut(evaluationFrom(stored)).has_value()) << "earlier versions did not say what is whose";
 }
 
 TEST(CampaignState, EvaluationsOfEarlierVersionsHoldCovariancesOfPairs) {

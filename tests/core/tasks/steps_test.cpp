@@ -15,10 +15,10 @@ namespace {
 using ::spindrift::testing::TaskSession;
 using ::testing::HasSubstr;
 
-nlohmann::json checkOf(int all, int bad) {
+nlohmann::json checkOf(int all, int bad, int first = 0) {
   nlohmann::json captures = nlohmann::json::array();
-  for (int i = 0; i < all; ++i)
-    captures.push_back({{"image", "captures/images/" + std::to_string(i) + ".jpg"}, {"good", i >= bad}});
+  for (int i = first; i < first + all; ++i)
+    captures.push_back({{"image", "captures/images/" + std::to_string(i) + ".jpg"}, {"good", i >= first + bad}});
   return {{"captures", captures}};
 }
 
@@ -53,15 +53,28 @@ TEST(Steps, WhatIsExcludedIsNotMissedAndWhatIsNotLookedAtNotPraised) {
   TaskSession s;
   for (int i = 1; i < 4; ++i) s.capture(i);
   s.session_.exclude(s.id_, "captures/images/0.jpg", "blurred");
-  s.run("check", checkOf(3, 0));
+  s.run("check", checkOf(3, 0, 1));
   s.session_.exclude(s.id_, "captures/images/1.jpg", "dark");
   EXPECT_EQ(s.step(StepId::Capture).state, StepState::Outdated) << "nothing is left to be checked for the first time";
-  s.run("check", checkOf(2, 0));
+  s.run("check", checkOf(2, 0, 2));
   EXPECT_EQ(s.step(StepId::Capture).sentence, "All captures are checked.");
   s.session_.addCaptureRows(s.id_, "touches.csv", "time_s", {"1", "2"});
   s.run("check", checkOf(2, 0));
   EXPECT_EQ(s.step(StepId::Capture).state, StepState::Current);
   EXPECT_THAT(s.step(StepId::Capture).sentence, HasSubstr("those of other instruments are judged when"));
+}
+
+TEST(Steps, ReadingsAndMasksThatAreTakenOutAreNoCaptures) {
+  TaskSession s;
+  for (int i = 1; i < 4; ++i) s.capture(i);
+  s.run("check", checkOf(4, 0));
+  for (const char* item : {"M1/F1/EX", "M1/F1/EY", "mask/captures/a.pcd: erase lasso 0,0 1,0 1,1"})
+    s.session_.exclude(s.id_, item, "disturbed");
+  EXPECT_EQ(s.step(StepId::Capture).state, StepState::Outdated);
+  for (int i = 4; i < 8; ++i) s.capture(i);
+  EXPECT_EQ(s.step(StepId::Capture).sentence, "4 of 8 captures are checked.");
+  s.session_.exclude(s.id_, "captures/images/7.jpg", "dark");
+  EXPECT_EQ(s.step(StepId::Capture).sentence, "5 of 8 captures are checked.") << "it need not be";
 }
 
 TEST(Steps, AReportWhoseFileIsGoneIsNotWritten) {

@@ -232,28 +232,35 @@ TEST(TaskGraph, AReportIsMadeFromWhatIsStoredAndSaysWhatDoesNotHold) {
             "files of the campaign, the options and the evaluation is outdated");
 }
 
+/// A campaign of observations that begin at zero and end at `last_um`.
+void writeCampaign(const testing::TempFolder& folder, const std::string& name, double last_um) {
+  folder.write(name + "/campaign.json", R"({"format":"spindrift-campaign","version":1,"name":")" + name +
+                                            R"(","start_utc":"2026-01-31T08:00:00Z"})");
+  folder.write(name + "/machine.json",
+               R"({"format":"spindrift-machine","version":1,"name":"mill","chain":"V [w-X'-Y'-b-Z-t]",
+                   "axes":[{"name":"X","travel_mm":[0,300]},{"name":"Y","travel_mm":[0,300]},
+                           {"name":"Z","travel_mm":[0,300]}]})");
+  ObservationSet observations;
+  for (const char* point : {"P1", "P2"})
+    for (const double time_s : {0.0, 3600.0, 7200.0}) {
+      Observation o;
+      o.time_s = time_s;
+      o.state = "M" + std::to_string(static_cast<int>(time_s / 3600.0));
+      o.point = point;
+      o.sigma = 0.1;
+      o.value = last_um * time_s / 7200.0 + (point[1] == '2' ? 0.01 : 0.0);
+      o.instrument = "probe";
+      observations.rows.push_back(o);
+    }
+  observations.write(folder / name / "observations.csv");
+}
+
 /// The English report is the same whoever writes it; what a program offers beside it makes neither outdated.
 TEST(ReportTask, WritesInTheLanguageThatTheProgramOffersToo) {
   const testing::TempFolder folder;
-  folder.write("c/campaign.json", R"({"format":"spindrift-campaign","version":1,"name":"mill 7",
-                                      "start_utc":"2026-01-31T08:00:00Z"})");
-  folder.write("c/machine.json", R"({"format":"spindrift-machine","version":1,"name":"mill","chain":"V [w-X'-Y'-b-Z-t]",
-                                     "axes":[{"name":"X","travel_mm":[0,300]},{"name":"Y","travel_mm":[0,300]},
-                                             {"name":"Z","travel_mm":[0,300]}]})");
-  ObservationSet observations;
-  for (const double time_s : {0.0, 3600.0}) {
-    Observation o;
-    o.time_s = time_s;
-    o.state = time_s > 0.0 ? "M1" : "M0";
-    o.point = "P1";
-    o.sigma = 0.5;
-    o.value = time_s / 1000.0;
-    o.instrument = "probe";
-    observations.rows.push_back(o);
-  }
-  observations.write(folder / "c/observations.csv");
+  writeCampaign(folder, "mill-7", 7.2);
   ReportTask task;
-  task.campaign = std::make_shared<Campaign>(Campaign::read(folder / "c"));
+  task.campaign = std::make_shared<Campaign>(Campaign::read(folder / "mill-7"));
   task.folder = folder / "s";
   task.name = "reports/report-1";
   JobContext job;
@@ -279,11 +286,78 @@ TEST(TaskGraph, TheSecondCampaignOfAVerificationIsAnInput) {
   const auto other = s.session_.newCampaign("after", "2026-01-31T08:00:00Z",
                                             R"({"format":"spindrift-machine","version":1,"name":"mill",
                                                 "chain":"V [w-X'-Y'-b-Z-t]","axes":[{"name":"X","travel_mm":[0,300]}]})");
-  s.option(option_keys::verify, {{"after", s.session_.campaign(other).folder.string()}});
-  s.run("verify");
-  EXPECT_TRUE(s.status("verify").current);
+  const auto again = [&] {
+    s.run("verify");
+    return s.status("verify").current;
+  };
+  // As it was kept by earlier versions, and as it is now.
+  for (const std::string& name :
+       {s.session_.campaign(other).folder.string(), placeName(s.session_, s.session_.campaign(other).folder)}) {
+    s.option(option_keys::verify, {{"after", name}});
+    ASSERT_TRUE(again()) << name;
+    s.session_.exclude(other, "M1/F1/EX", "somebody leant on the machine " + name);
+    EXPECT_THAT(s.status("verify").changed, ElementsAre("the second campaign"));
+    ASSERT_TRUE(again());
+    s.session_.restore(other, "M1/F1/EX");
+    s.session_.setSetting(Session::clocksKey(other), {{"touch_probe_s", name.size()}});
+    EXPECT_THAT(s.status("verify").changed, ElementsAre("the second campaign"));
+    ASSERT_TRUE(again());
+  }
+  EXPECT_TRUE(std::filesystem::path(placeName(s.session_, s.session_.campaign(other).folder)).is_relative())
+      << "a session may be moved";
   s.session_.addCaptureRows(other, "touches.csv", "time_s", {"1"});
   EXPECT_THAT(s.status("verify").changed, ElementsAre("the second campaign"));
+}
+
+TEST(TaskGraph, ASecondCampaignElsewhereIsAnInputToo) {
+  TaskSession s;
+  s.run("evaluate");
+  s.folder_.write("elsewhere/observations.csv", "one\n");
+  s.option(option_keys::verify, {{"after", (s.folder_ / "elsewhere").string()}});
+  s.run("verify");
+  EXPECT_TRUE(s.status("verify").current);
+  s.folder_.write("elsewhere/observations.csv", "corrected\n");
+  EXPECT_THAT(s.status("verify").changed, ElementsAre("the second campaign"));
+}
+
+// Both sides of a verification are what the user sees of them.
+TEST(TaskGraph, TheSecondCampaignIsComparedWithoutWhatTheUserTookOutOfIt) {
+  const testing::TempFolder folder;
+  JobContext job;
+  Session session = Session::create(folder / "s");
+  std::vector<std::int64_t> ids;
+  for (const auto& [name, last_um] : {std::pair("before", 5.0), std::pair("after", 1.0)}) {
+    writeCampaign(folder, name, last_um);
+    ids.push_back(session.importCampaign(folder / name, job));
+  }
+  session.setSetting(campaignKey(option_keys::verify, ids[0]),
+                     {{"after", placeName(session, session.campaign(ids[1]).folder)}, {"goal_um", 3.0}});
+  const auto verified = [&] {
+    const CampaignState state = CampaignState::read(session, ids[0]);
+    const TaskLedger ledger;
+    const TaskWork work = prepareTask("verify", state.tasks(session, ledger), TaskInputs::of(session, state));
+    return work(job, TaskOutput::Payload).payload;
+  };
+  const nlohmann::json all = verified();
+  EXPECT_EQ(all.at("verdict"), "met");
+  EXPECT_EQ(all.at("points").size(), 4U);
+  session.exclude(ids[1], "M2/P2/EX", "somebody leant on the machine");
+  EXPECT_EQ(verified().at("points").size(), 3U);
+}
+
+TEST(TaskGraph, WorkGoesOnWithTheEffectsItWasBegunWith) {
+  TaskSession s;
+  const auto campaign = std::make_shared<const Campaign>(s.graph().data());
+  const std::filesystem::path file = EffectOptions::file(s.session_, s.id_);
+  EffectOptions first, second;
+  first.effects = {{"name", "first"}};
+  second.effects = {{"name", "second"}};
+  const auto begun = first.applied(campaign, file);
+  const auto later = second.applied(campaign, file);
+  EXPECT_THAT(readFile(begun->effects), HasSubstr("first"));
+  EXPECT_THAT(readFile(later->effects), HasSubstr("second"));
+  EXPECT_EQ(first.applied(campaign, file)->effects, begun->effects);
+  EXPECT_EQ(EffectOptions().applied(campaign, file), campaign);
 }
 
 TEST(TaskGraph, AResultThatDoesNotSayWhatItWasMadeFromIsNotTakenForCurrent) {

@@ -242,6 +242,37 @@ TEST_F(ReportSections, OfALogAloneTellsConditionsStandardTestModelAndCompensatio
   EXPECT_THAT(text, Not(HasSubstr("1970")));
 }
 
+TEST_F(ReportSections, TellsTheModelThatWasFittedInPlaceOfTheUsualOne) {
+  std::string touches = "time_s,cycle,artefact,feature,stylus,c_deg,touch,x_mm,y_mm,z_mm,nx,ny,nz\n";
+  for (int k = 0; k < 2; ++k)
+    for (const char* bar : {"bar", "other"})
+      touches += fmt::format("{},C{},{},H1,p0,0,1,1,2,3,1,0,0\n", 600 * k, k, bar);
+  writeFileAtomically(folder_ / "captures/touches.csv", touches);
+  const auto cycle = [](const char* name, const char* artefact, double value) -> nlohmann::json {
+    return {{"cycle", name},
+            {"artefact", artefact},
+            {"time_s", name[1] == '0' ? 0 : 600},
+            {"parameters", {{"EXX_um_per_m", {{"value", value}, {"standard_uncertainty", value == 0.0 ? 0.0 : 0.5}}}}}};
+  };
+  InstrumentEvaluation probe;
+  probe.instrument = "touch_probe";
+  probe.details = {{"cycles", {cycle("C0", "bar", 0), cycle("C1", "bar", 12.25), cycle("C1", "other", 33.75)}},
+                   {"artefacts", {{{"artefact", "bar"}}, {{"artefact", "other"}}}}};
+  ReportOptions options;
+  options.evaluated.emplace();
+  options.evaluated->instruments = {probe};
+  EXPECT_THAT(html(options), HasSubstr("12.3 ± 0.5"));
+  options.stored.fit = {
+      {"artefact", "bar"}, {"status", "converged"}, {"cycles", {cycle("C0", "bar", 0), cycle("C1", "bar", 27.75)}}};
+  const std::string told = html(options);
+  EXPECT_THAT(told, HasSubstr("27.8 ± 0.5")) << "as the step Model shows it";
+  EXPECT_THAT(told, Not(HasSubstr("12.3 ± 0.5")));
+  EXPECT_THAT(told, HasSubstr("33.8 ± 0.5")) << "the other artefact has no model of its own";
+  EXPECT_THAT(told, Not(HasSubstr("outdated model")));
+  options.stored.changed["fit"] = "1 exclusion more";
+  EXPECT_THAT(html(options), HasSubstr("outdated model. Changed since it was fitted: 1 exclusion more."));
+}
+
 TEST_F(ReportSections, EquipmentIsNamedWithItsSerialNumberAndCalibration) {
   std::string machine = machine_json;
   machine.pop_back();

@@ -140,6 +140,27 @@ TEST(JobRunner, WhatIsToBeShownDoesNotWaitForLongWork) {
   EXPECT_EQ(applied, std::vector<std::string>{"long"});
 }
 
+TEST(JobRunner, APictureWaitsForNothingThatTakesAWhileToRead) {
+  JobRunner runner;
+  std::atomic<bool> go_on{false};
+  std::vector<std::string> applied;
+  for (const JobQueue queue : {JobQueue::Work, JobQueue::Reading, JobQueue::Files, JobQueue::Batch}) {
+    Job slow = lasting(go_on, applied, "slow");
+    slow.queue = queue;
+    runner.run(std::move(slow));
+  }
+  std::atomic<int> shown{0};
+  Job picture = counting(shown);
+  picture.queue = JobQueue::Display;
+  runner.run(std::move(picture));
+  EXPECT_TRUE(QTest::qWaitFor([&] { return shown == 1; }, 10000));
+  EXPECT_TRUE(applied.empty());
+  runner.cancelOfSession();
+  EXPECT_TRUE(QTest::qWaitFor([&] { return runner.entries().size() == 1; }, 10000)) << "the batch alone goes on";
+  go_on = true;
+  EXPECT_TRUE(QTest::qWaitFor([&] { return !runner.busy(); }, 10000));
+}
+
 TEST(JobRunner, ABatchKeepsNobodyFromWorking) {
   JobRunner runner;
   std::atomic<bool> go_on{false};
@@ -182,7 +203,8 @@ TEST(LatestWork, SaysThatItIsBusyUntilTheAnswerIsThere) {
 }
 
 TEST(JobRunner, TheLatestOfAKeyWins) {
-  for (const JobQueue queue : {JobQueue::Work, JobQueue::Display, JobQueue::Batch}) {
+  for (const JobQueue queue :
+       {JobQueue::Work, JobQueue::Display, JobQueue::Reading, JobQueue::Files, JobQueue::Batch}) {
     JobRunner runner;
     std::atomic<bool> go_on{false};
     std::vector<std::string> applied;

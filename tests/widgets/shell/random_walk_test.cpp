@@ -25,7 +25,9 @@
 
 #include "core/base/atomic_file.h"
 #include "core/base/random.h"
+#include "core/base/text.h"
 #include "core/machine/observation.h"
+#include "core/reporting/report_parts.h"
 #include "core/tasks/steps.h"
 #include "core/tasks/task_options.h"
 #include "core/workflows/compensation_workflow.h"
@@ -274,7 +276,33 @@ class RandomWalk : public StoryTest {
     what_ += "edit";
   }
 
+  /// To the first state of every campaign and back again.
+  void undoEverything() {
+    const std::int64_t at_hand = session().campaignId();
+    for (const auto& [id, state] : first_) {
+      wait();
+      session().selectCampaign(id);
+      wait();
+      const nlohmann::json before = stateOf(id);
+      const int most = window_->undoStack().count();
+      int undone = 0;
+      for (; undone < most && action(QKeySequence::Undo)->isEnabled(); ++undone) action(QKeySequence::Undo)->trigger();
+      wait();
+      EXPECT_FALSE(action(QKeySequence::Undo)->isEnabled());
+      const nlohmann::json now = stateOf(id);
+      EXPECT_EQ(now, state) << nlohmann::json::diff(state, now).dump();
+      for (; undone > 0 && action(QKeySequence::Redo)->isEnabled(); --undone) action(QKeySequence::Redo)->trigger();
+      wait();
+      const nlohmann::json after = stateOf(id);
+      EXPECT_EQ(after, before) << nlohmann::json::diff(before, after).dump();
+    }
+    wait();
+    session().selectCampaign(at_hand);
+    wait();
+  }
+
   void reopen() {
+    undoEverything();
     const QString folder = QString::fromStdString(session().folder().string());
     wait();
     window_->closeSession();
@@ -443,6 +471,10 @@ class RandomWalk : public StoryTest {
     const ReportTaskOptions asked = ReportTaskOptions::of(*session().session(), session().campaignId());
     EXPECT_TRUE(tells(asked.operator_name)) << asked.operator_name;
     EXPECT_TRUE(tells(session().campaign()->machine.name));
+    // The numbers of what is shown are those that are reported.
+    for (const LargestChange& change : largestChanges(*session().observations()))
+      EXPECT_TRUE(tells(withUncertainty(change.value, change.sigma, ""))) << toString(change.component);
+    EXPECT_TRUE(tells(inputs.at("files").get<std::string>())) << "the fingerprint of the campaign";
   }
 
   void check() {
@@ -525,24 +557,14 @@ TEST_F(RandomWalk, KeepsItsPromises) {
   }
   EXPECT_FALSE(HasFailure()) << "after: " << trace;
   // Otherwise nothing would have been looked at.
-  EXPECT_GT(current_fits_ + current_plans_ + current_reports_, 0);
-  EXPECT_GT(shown_, 0);
+  for (const int looked_at : {current_fits_, current_plans_, current_reports_, shown_}) EXPECT_GT(looked_at, 0);
   RecordProperty("current_fits", current_fits_);
   RecordProperty("current_plans", current_plans_);
   RecordProperty("current_reports", current_reports_);
   RecordProperty("shown", shown_);
 
-  for (const auto& [id, state] : first_) {
-    wait();
-    session().selectCampaign(id);
-    wait();
-    const int most = window_->undoStack().count();
-    for (int i = 0; i < most && action(QKeySequence::Undo)->isEnabled(); ++i) action(QKeySequence::Undo)->trigger();
-    wait();
-    EXPECT_FALSE(action(QKeySequence::Undo)->isEnabled());
-    const nlohmann::json now = stateOf(id);
-    EXPECT_EQ(now, state) << nlohmann::json::diff(state, now).dump() << "\nafter: " << trace;
-  }
+  undoEverything();
+  EXPECT_FALSE(HasFailure()) << "after: " << trace;
 }
 
 }  // namespace

@@ -52,6 +52,7 @@ std::span<const char* const> spindrift::gui::core_formats::thermal() noexcept {
     QT_TRANSLATE_NOOP("core", "an origin of the choice must lie between 0 and 1."),
     QT_TRANSLATE_NOOP("core", "asked for by the last exceedance"),
     QT_TRANSLATE_NOOP("core", "at least one output"),
+    QT_TRANSLATE_NOOP("core", "at {} mm no point was approached from one direction both at the beginning and at the end of the test; allowed: the same approaches in the first and in the last cycle."),
     QT_TRANSLATE_NOOP("core", "below 0.1 % of the prediction"),
     QT_TRANSLATE_NOOP("core", "choosing inputs"),
     QT_TRANSLATE_NOOP("core", "chosen in {:.0f} % of the resamples"),

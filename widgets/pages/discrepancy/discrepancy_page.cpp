@@ -405,7 +405,8 @@ void DiscrepancyPage::removeLast() {
 }
 
 void DiscrepancyPage::updateButtons() {
-  const bool idle = !context().jobs.working();
+  // Behind other work it waits its turn.
+  const bool idle = !session().isRunning(discrepancy_result);
   search_->setEnabled(idle && missing().isEmpty() && canRun(discrepancy_result));
   const bool proposes = story_ != nullptr && what_ != nullptr &&
                         (story_->nextProposal() != nullptr || (!what_->chosen().empty() && !what_->chosenIsAdded()));

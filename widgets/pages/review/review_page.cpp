@@ -15,6 +15,7 @@
 #include <QVBoxLayout>
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "core/base/error.h"
 #include "core/base/text.h"
@@ -72,7 +73,10 @@ ReviewPage::ReviewPage(PageContext page_context, QWidget* parent)
   for (int i = 0; i < 4; ++i) {
     auto* pane = new ReviewPane(i + 1, sources_, left);
     panes_[static_cast<std::size_t>(i)] = pane;
-    connect(pane, &ReviewPane::changed, this, &ReviewPage::showAll);
+    connect(pane, &ReviewPane::changed, this, [this] {
+      if (!states_.empty()) sayWhatIsOutdated();
+      showAll();
+    });
     for (View3D* view : {pane->view(), pane->scanView()}) {
       showHints(view);
       connect(view, &View3D::pointPicked, this, &ReviewPage::select);
@@ -211,10 +215,29 @@ void ReviewPage::refresh() {
     callout()->setAction(tr("Go to Calibrate"), [this] { context().workflow.goTo(StepId::Calibrate); });
   } else {
     callout()->setAction({}, {});
-    callout()->set(Tone::Neutral, {});
+    sayWhatIsOutdated();
   }
   showAll();
   if (isVisible() && (own != nullptr && !(own->states.empty() && own->scans.empty()))) session().noteReviewed();
+}
+
+void ReviewPage::sayWhatIsOutdated() {
+  QStringList told;
+  std::set<std::int64_t> looked_at;
+  for (const ReviewPane* pane : panes_) {
+    const std::int64_t id = pane->campaignChoice()->currentData().toLongLong();
+    const auto source = looked_at.insert(id).second ? sources_.source(id) : nullptr;
+    if (source == nullptr || source->changed.empty()) continue;
+    QStringList changed;
+    for (const std::string& what : source->changed) changed << coreSentence(what);
+    told << tr("%1 is shown as it was worked out before. Changed since: %2.")
+                .arg(source->name, changed.join(QStringLiteral(", ")));
+  }
+  if (told.isEmpty()) {
+    callout()->set(Tone::Neutral, {});
+  } else {
+    callout()->show(Tone::Outdated, told.join(QLatin1Char(' ')));
+  }
 }
 
 void ReviewPage::fillSlider() {

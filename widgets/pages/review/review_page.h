@@ -47,6 +47,8 @@ class ReviewPage : public Page {
  private:
   void layOutPanes();
   void lookAgain();
+  /// Of the campaigns in the panes.
+  void sayWhatIsOutdated();
   void fillSlider();
   [[nodiscard]] std::string stateAtSlider() const;
   void showAll();

@@ -199,16 +199,20 @@ QWidget* VerifyPage::makeChoices() {
 }
 
 void VerifyPage::setAfter(const QString& folder) {
-  options_.change(tr("choose the second campaign"), [&](VerifyOptions& o) { o.after = folder.toStdString(); });
+  const std::string name = placeName(*session().session(), folder.toStdString());
+  options_.change(tr("choose the second campaign"), [&](VerifyOptions& o) { o.after = name; });
 }
 
 void VerifyPage::fillChoices() {
   const VerifyOptions now = options_.now();
-  const QString chosen = fromCore(now.after);
+  const Session& store = *session().session();
+  const auto nameOf = [&](const std::filesystem::path& folder) { return fromCore(placeName(store, folder)); };
+  // Earlier versions kept where it was then.
+  const QString chosen = now.after.empty() ? QString() : nameOf(placeNamed(store, now.after));
   after_->clear();
-  after_->addItem(tr("this campaign, while compensating"), fromCore(session().campaign()->folder.string()));
+  after_->addItem(tr("this campaign, while compensating"), nameOf(session().campaign()->folder));
   for (const CampaignRecord& record : session().campaigns()) {
-    if (record.id != session().campaignId()) after_->addItem(fromCore(record.name), fromCore(record.folder.string()));
+    if (record.id != session().campaignId()) after_->addItem(fromCore(record.name), nameOf(record.folder));
   }
   if (!chosen.isEmpty() && after_->findData(chosen) < 0) after_->addItem(QFileInfo(chosen).fileName(), chosen);
   after_->setCurrentIndex(chosen.isEmpty() ? -1 : after_->findData(chosen));

@@ -226,7 +226,7 @@ void SimulationPanel::openSoon() {
 
 void SimulationPanel::chooseSimulator(const QString& file) {
   SessionModel& session = context_.session;
-  const std::string name = simulatorName(*session.session(), file.toStdString());
+  const std::string name = placeName(*session.session(), file.toStdString());
   opened_key_.clear();  // it may have changed on the disk
   if (name == simulator_) {
     refresh();
@@ -248,8 +248,12 @@ void SimulationPanel::fail(const QString& sentence) {
   refresh();
 }
 
+bool SimulationPanel::searching() const {
+  return context_.session.isRunning("simulation");
+}
+
 void SimulationPanel::search() {
-  if (context_.jobs.working() || simulator_.empty() || !context_.session.observations()) return;
+  if (searching() || simulator_.empty() || !context_.session.observations()) return;
   failure_.clear();
   const auto found = std::make_shared<std::shared_ptr<const DiscrepancyRun>>();
   runTask(context_.session, context_.jobs, "simulation",
@@ -296,7 +300,7 @@ QString SimulationPanel::whyNotPut() const {
 }
 
 void SimulationPanel::putInto(const QString& folder) {
-  if (context_.jobs.working() || simulator_.empty() || !context_.session.observations()) return;
+  if (searching() || simulator_.empty() || !context_.session.observations()) return;
   if (const QString why = whyNotPut(); !why.isEmpty()) {
     callout_->show(Tone::Attention, why);
     return;
@@ -309,7 +313,7 @@ void SimulationPanel::putInto(const QString& folder) {
     fail(tr("%1 lies in the campaign folder, which is never written to; choose another place.").arg(folder));
     return;
   }
-  const std::string version = simulatorName(*context_.session.session(), target / "simulator.json");
+  const std::string version = placeName(*context_.session.session(), target / "simulator.json");
   // Anything else is searched anew, as part of the job.
   const bool kept = searched_.run != nullptr && searched_.visit == context_.session.visit() &&
                     searched_.result == stored_.id && current();
@@ -491,7 +495,7 @@ void SimulationPanel::showView(int index) {
 }
 
 void SimulationPanel::updateButtons() {
-  const bool idle = !context_.jobs.working();
+  const bool idle = !searching();
   const bool usable = !simulator_.empty() && opened_.error.isEmpty();
   choose_->setEnabled(idle);
   search_->setVisible(!simulator_.empty());

@@ -95,6 +95,8 @@ class SimulationPanel : public QWidget {
   void showCallout();
   void showView(int index);
   void arrange();
+  /// With a simulator, for the campaign at hand; other work does not keep it from being asked for.
+  [[nodiscard]] bool searching() const;
   void updateButtons();
   [[nodiscard]] bool current() const;
   [[nodiscard]] QString titleOf(const FoundEffect& effect) const;

@@ -174,7 +174,7 @@ void ConnectionsPanel::list(const std::string& source) {
   // As a job it can be cancelled and never holds the window up.
   Job job;
   job.title = tr("Listing %1").arg(fromCore(entry->value("url", std::string())));
-  job.queue = JobQueue::Display;
+  job.queue = JobQueue::Reading;
   job.key = "connections";
   job.work = [this, source, entry = *entry](JobContext& progress) -> std::function<void()> {
     const SourceDescription peer_description =
