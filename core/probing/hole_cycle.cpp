@@ -14,6 +14,7 @@
 #include "core/math/least_squares.h"
 #include "core/math/statistics.h"
 #include "core/probing/artefact_certificate.h"
+#include "core/probing/stylus_movement.h"
 
 namespace spindrift {
 namespace {
@@ -258,6 +259,42 @@ void warnOfCertificate(const Artefact& artefact, const ArtefactCertificate& cert
     result.warnings.push_back(std::move(warning));
 }
 
+/// A stylus that is knocked or a bar that slips moves everything that follows at once, and the displacements of the
+/// table take it; what heat does takes its time.
+void warnOfASuddenMovement(const Artefact& artefact, HoleCycleResult& result) {
+  constexpr std::size_t first = 1;  // of the displacements among the parameters
+  std::vector<double> time;
+  std::vector<Eigen::Vector3d> displaced_um;
+  std::vector<std::size_t> cycles;
+  double noise_um = 0.0;
+  for (std::size_t k = 0; k < result.cycles.size(); ++k) {
+    const bool reference = static_cast<int>(k) == result.problem.reference_cycle;
+    Eigen::Vector3d at = Eigen::Vector3d::Zero();
+    bool known = true;
+    for (std::size_t i = 0; i < 3 && !reference; ++i) {
+      const CycleParameter& p = result.parameters[k][first + i];
+      known = known && p.determined;
+      at(static_cast<Eigen::Index>(i)) = p.value;
+      noise_um = std::max(noise_um, p.determined ? p.standard_uncertainty : 0.0);
+    }
+    if (!known) continue;
+    time.push_back(result.cycle_time_s[k]);
+    displaced_um.push_back(at);
+    cycles.push_back(k);
+  }
+  constexpr double telling_um = 5.0;
+  constexpr double many_sigma = 8.0;
+  const StylusMovement movement =
+      judgeMovement(time, displaced_um, noise_um, std::max(telling_um, many_sigma * noise_um));
+  if (movement.kind != MovementKind::Jump) return;
+  const auto before = static_cast<std::size_t>(movement.jump_after);
+  result.warnings.push_back(
+      fmt::format("From {} to {} all holes of {} moved by {:.0f} µm at once, which heat does not do: was the stylus "
+                  "knocked, or did "
+                  "the bar slip? The displacements of the table hold that step.",
+                  result.cycles[cycles[before]], result.cycles[cycles[before + 1]], artefact.id, movement.jump_um));
+}
+
 constexpr Eigen::Index eme = 8;  ///< growth of the bar among the parameters
 
 /// The growth that coefficient and temperature expect, beside that of the touches; a warning where they contradict.
@@ -409,6 +446,7 @@ HoleCycleResult evaluateHoleCycles(const TouchList& list, const MachineDescripti
   const ArtefactCertificate certificate = ArtefactCertificate::of(machine, artefact);
   result.against_certificate = compareWithCertificate(result, artefact, certificate, log);
   warnOfCertificate(artefact, certificate, result);
+  warnOfASuddenMovement(artefact, result);
   addCertificate(list, artefact, certificate, result);
   const ArtefactGrowth growth = artefactGrowth(certificate, artefact, log, result.cycle_time_s);
   // A growth whose uncertainty nobody states is no measurement; one that contradicts the touches is told, not mixed in;

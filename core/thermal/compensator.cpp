@@ -196,8 +196,9 @@ CompensatorStatus Compensator::status() const noexcept {
 bool Compensator::update(int output, double gain_factor, double offset_correction) noexcept {
   if (output < 0 || output >= outputs_) return false;
   // Written so that NaN fails.
-  const bool possible = gain_factor >= limits_.least_gain && gain_factor <= limits_.most_gain &&
-                        std::abs(correction_[output] + offset_correction) <= limits_.update_limit;
+  const bool possible =
+      gain_factor >= limits_.least_gain && gain_factor <= limits_.most_gain &&
+      std::abs(correction_[output] + offset_correction) <= std::min(limits_.update_limit, limits_.limit);
   if (!possible) {
     refused_update_ = output;
     return false;

@@ -37,8 +37,10 @@ struct CompensatorLimits {
   double range_margin = 0.5;      ///< input beyond its training range by more than this part of the range is impossible
   double minimum_margin =
       20.0;  ///< but never less than this, in the input's unit (ignored for speeds, where the range decides)
-  double update_limit = 100.0;  ///< of the sum of measured offsets that `update` takes, um or urad
-  double least_gain = 0.2;      ///< factors outside are no measurement of the same machine
+  /// Of the sum of measured offsets that `update` takes, um or urad; never more than `limit`: an output that stands at
+  /// its limit for a wild measurement compensates nothing.
+  double update_limit = 100.0;
+  double least_gain = 0.2;  ///< factors outside are no measurement of the same machine
   double most_gain = 5.0;
   bool forced = false;  ///< take a model that its identification called not good enough; the status says so
 };

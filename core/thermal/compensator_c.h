@@ -50,7 +50,7 @@ typedef struct spindrift_compensator_options {
   double recover_after_s; /* good again for this long before the compensation returns */
   double range_margin;    /* part of the range of training by which an input may leave it */
   double minimum_margin;  /* but never less than this, in the input's unit */
-  double update_limit;    /* of the sum of measured offsets */
+  double update_limit;    /* of the sum of measured offsets; never more than limit */
   int32_t force;          /* 1: take a model that its identification called not good enough */
   double least_gain;      /* a measured gain factor below is refused */
   double most_gain;       /* and one above */

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>
@@ -495,6 +497,36 @@ TEST(HoleCycle, OneTemperatureForAllCyclesContradictsNoGrowth) {
   EXPECT_NEAR(result.parameters[2][8].value, 70.0, 3.0);
   EXPECT_TRUE(result.growth.empty()) << "nothing is known of a growth";
   EXPECT_TRUE(result.warnings.empty()) << result.warnings.front();
+}
+
+// A knock looks like a displacement of the table; heat takes its time, whatever the time constant.
+TEST(HoleCycle, AKnockOfTheStylusIsToldFromAMachineThatWarms) {
+  const MachineDescription m = machineFrom(holeMachineText());
+  int told = 0;
+  int told_of_heat = 0;
+  constexpr int seeds = 30;
+  for (int seed = 1; seed <= seeds; ++seed) {
+    Random random(static_cast<std::uint64_t>(seed));
+    const double tau_s = random.uniform(300.0, 6000.0);
+    const int knocked_in = 2 + static_cast<int>(random.index(5));
+    VirtualProbeOptions options;
+    options.noise_um = 0.3;
+    VirtualRun run = runCycles(m, 9, options, static_cast<std::uint64_t>(seed), [&](int k, Random&) {
+      const double warm = -std::expm1(-600.0 * k / tau_s);
+      return std::vector<double>{20 * warm, 15 * warm, -10 * warm, 25 * warm, 3 * warm, 8 * warm, -6 * warm, 0, 0};
+    });
+    const auto says = [&](const std::string& part) {
+      const HoleCycleResult result = evaluateHoleCycles(run.list, m, m.artefacts.front(), {}, nullptr);
+      return std::any_of(result.warnings.begin(), result.warnings.end(),
+                         [&](const std::string& w) { return w.find(part) != std::string::npos; });
+    };
+    told_of_heat += says("at once, which heat does not do") ? 1 : 0;
+    for (Touch& t : run.list.touches)
+      if (t.time_s >= 600.0 * knocked_in - 1.0) t.position_mm += Eigen::Vector3d(0.016, -0.008, 0.009);
+    told += says(fmt::format("From M{} to M{} all holes of", knocked_in - 1, knocked_in)) ? 1 : 0;
+  }
+  EXPECT_EQ(told_of_heat, 0);
+  EXPECT_GE(told, seeds - 2);
 }
 
 TEST(HoleCycle, LengthsAgainstTheCertificateKnowWhatTheyRestOn) {

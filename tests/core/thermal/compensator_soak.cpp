@@ -202,7 +202,8 @@ class Soak {
     const double factor = factors[random_.index(8)];
     const double offset = offsets[random_.index(6)];
     double& sum = sums_[static_cast<std::size_t>(output)];
-    const bool possible = factor >= 0.2 && factor <= 5.0 && std::abs(sum + offset) <= options_.update_limit;
+    const bool possible =
+        factor >= 0.2 && factor <= 5.0 && std::abs(sum + offset) <= std::min(options_.update_limit, options_.limit);
     const bool taken = spindrift_compensator_update(compensator_, output, factor, offset) == 1;
     if (taken) sum += offset;
     spindrift_compensator_status status{};

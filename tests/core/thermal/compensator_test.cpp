@@ -335,6 +335,16 @@ TEST(Compensator, RefusesAnImpossibleMeasurementAndSaysSo) {
   EXPECT_NEAR(out, before - 30.0, 1e-9);
 }
 
+TEST(Compensator, NoMeasuredOffsetHoldsAnOutputAtItsLimit) {
+  Compensator c;
+  CompensatorLimits limits;
+  limits.limit = 20.0;
+  ASSERT_EQ(c.load(model(), 1.0, limits), "");
+  EXPECT_FALSE(c.update(0, 1.0, 90.0)) << "below update_limit, far beyond what can be compensated";
+  EXPECT_EQ(c.status().refused_update, 0);
+  EXPECT_TRUE(c.update(0, 1.0, 19.0));
+}
+
 TEST(Compensator, TheInterfaceForCChecksLengthsSizesAndNames) {
   const testing::TempFolder folder;
   ThermalModel m = model();
