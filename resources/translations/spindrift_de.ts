@@ -11592,6 +11592,10 @@ endgültig fehlgeschlagen: {}</translation>
         <source>which of {} is the speed of the spindle is not known; allowed: a column spindle_rpm, or --speed with one of them.</source>
         <translation>welche von {} die Drehzahl der Spindel ist, ist nicht bekannt; zulässig: eine Spalte spindle_rpm oder --speed mit einer davon.</translation>
     </message>
+    <message>
+        <source>From {} to {} all holes of {} moved by {:.0f} µm at once, which heat does not do: was the stylus knocked, or did the bar slip? The displacements of the table hold that step.</source>
+        <translation>Von {} nach {} haben sich alle Bohrungen von {} auf einmal um {:.0f} µm verlagert, was Wärme nicht tut: Wurde der Tastereinsatz angestoßen, oder ist die Leiste verrutscht? Die Verlagerungen des Tisches enthalten diesen Sprung.</translation>
+    </message>
 </context>
 <context>
     <name>files</name>
@@ -20016,6 +20020,10 @@ ihrem Ordner und führen nicht hinaus.
     <message>
         <source>Checking the picture</source>
         <translation>Das Bild wird geprüft</translation>
+    </message>
+    <message>
+        <source>not looked at, because another campaign was chosen meanwhile.</source>
+        <translation>nicht angesehen, weil inzwischen eine andere Kampagne gewählt wurde.</translation>
     </message>
 </context>
 <context>

@@ -4,6 +4,7 @@
 #include <QDateTime>
 #include <QDir>
 #include <QFileInfo>
+#include <utility>
 
 #include "core/base/error.h"
 #include "core/imaging/image.h"
@@ -60,6 +61,7 @@ void IncomingService::follow() {
   campaign_ = session_.campaignId();
   timer_.stop();
   jobs_.cancelAll();
+  giveUpHanded();
   examining_ = false;
   folder_.reset();
   thumbnails_.clear();
@@ -298,50 +300,68 @@ void IncomingService::take(const QString& name, std::shared_ptr<const GrayImage>
 
 void IncomingService::takeFiles(const QStringList& files, std::function<void(const std::vector<IncomingItem>&)> done) {
   follow();
-  if (session_.campaign() != nullptr) takeNext(files, {}, std::move(done));
+  if (session_.campaign() == nullptr) return;
+  handed_.push_back({files, {}, std::move(done)});
+  if (handed_.size() == 1) takeNext();
 }
 
 /// One after the other: each is held against those before it.
-void IncomingService::takeNext(QStringList files, std::vector<IncomingItem> taken,
-                               std::function<void(const std::vector<IncomingItem>&)> done) {
-  if (files.isEmpty()) {
-    done(taken);
-    return;
+void IncomingService::takeNext() {
+  while (!handed_.empty() && handed_.front().waiting.isEmpty()) {
+    const Handed all = std::move(handed_.front());
+    handed_.pop_front();
+    all.done(all.answered);
   }
-  const QFileInfo file(files.takeFirst());
-  const auto next = [this, files, done, folder = campaign_folder_](std::vector<IncomingItem> so_far) {
-    if (folder == campaign_folder_) takeNext(files, std::move(so_far), done);
-  };
+  if (handed_.empty()) return;
+  const QFileInfo file(handed_.front().waiting.front());
   Job job;
   job.title = tr("Checking %1").arg(file.fileName());
   job.quiet = true;
-  job.work = [this, next, taken, path = std::filesystem::path(file.absoluteFilePath().toStdString()),
+  job.work = [this, path = std::filesystem::path(file.absoluteFilePath().toStdString()),
               name = file.fileName().toStdString(), written_ns = file.lastModified().toMSecsSinceEpoch() * 1'000'000,
               context = contextNow(), folder = campaign_folder_](JobContext&) {
     auto examined = std::make_shared<ExaminedFile>(examineArrival(path, name, written_ns, *context));
     const QImage picture = smallPicture(path, examined->item.kind);
-    return std::function<void()>([this, next, taken, examined, picture, folder] {
-      if (folder != campaign_folder_) return;
+    return std::function<void()>([this, examined, picture, folder] {
+      if (folder != campaign_folder_) return;  // given up
       keepPicture(examined->item.name, picture);
       ExaminedFile answer = *examined;
       answer.item = intake_.show(examined->item);
       record(answer);
-      std::vector<IncomingItem> all = taken;
-      all.push_back(examined->item);  // "there already", where the list keeps its first answer
       Q_EMIT changed();
-      next(std::move(all));
+      answerHanded(examined->item);  // "there already", where the list keeps its first answer
     });
   };
-  job.failed = [this, next, taken, name = file.fileName().toStdString()](const QString& sentence) {
-    std::vector<IncomingItem> all = taken;
+  job.failed = [this, name = file.fileName().toStdString(), folder = campaign_folder_](const QString& sentence) {
+    if (folder != campaign_folder_) return;
     IncomingItem failed;
     failed.name = name;
     failed.state = IncomingState::Ignored;
     failed.sentence = sentence.toStdString();
-    all.push_back(failed);
-    next(std::move(all));
+    answerHanded(std::move(failed));
   };
   jobs_.run(std::move(job));
+}
+
+void IncomingService::answerHanded(IncomingItem item) {
+  Handed& handed = handed_.front();
+  handed.waiting.removeFirst();
+  handed.answered.push_back(std::move(item));
+  takeNext();
+}
+
+/// Nothing of these files is lost: they lie where they came from.
+void IncomingService::giveUpHanded() {
+  for (Handed& handed : std::exchange(handed_, {})) {
+    for (const QString& file : handed.waiting) {
+      IncomingItem left;
+      left.name = QFileInfo(file).fileName().toStdString();
+      left.state = IncomingState::Ignored;
+      left.sentence = tr("not looked at, because another campaign was chosen meanwhile.").toStdString();
+      handed.answered.push_back(std::move(left));
+    }
+    handed.done(handed.answered);
+  }
 }
 
 const MeasurementPlan& IncomingService::plan() {

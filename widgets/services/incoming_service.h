@@ -45,7 +45,8 @@ class IncomingService : public QObject {
   /// A picture of a camera, checked and taken over like a file.
   void take(const QString& name, std::shared_ptr<const GrayImage> image);
   /// Files that were given by hand, one after the other: checked, copied and taken over as those that arrive in the
-  /// watched folder. `done` gets what became of each.
+  /// watched folder. `done` gets what became of each, also when another campaign is chosen meanwhile: those that were
+  /// not looked at say so.
   void takeFiles(const QStringList& files, std::function<void(const std::vector<IncomingItem>&)> done);
   /// True while nothing is waiting to be read or checked.
   [[nodiscard]] bool idle() const;
@@ -72,8 +73,15 @@ class IncomingService : public QObject {
   void look();
   void examineNext();
   void finished(const IncomingFolder::Task& task, ExaminedFile examined, const QImage& picture);
-  void takeNext(QStringList files, std::vector<IncomingItem> taken,
-                std::function<void(const std::vector<IncomingItem>&)> done);
+  /// Files given by hand at one time.
+  struct Handed {
+    QStringList waiting;  ///< the first is being looked at
+    std::vector<IncomingItem> answered;
+    std::function<void(const std::vector<IncomingItem>&)> done;
+  };
+  void takeNext();
+  void answerHanded(IncomingItem item);
+  void giveUpHanded();
   void record(const ExaminedFile& found);
   void keepPicture(const std::string& name, const QImage& picture);
   void feed(const ExaminedFile& examined);
@@ -94,6 +102,7 @@ class IncomingService : public QObject {
   int generation_ = -1;
   int pictures_ = 0;
   bool examining_ = false;
+  std::deque<Handed> handed_;
   std::unique_ptr<IncomingFolder> folder_;
   CaptureIntake intake_;
   std::map<std::string, QImage> thumbnails_;

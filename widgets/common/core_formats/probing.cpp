@@ -23,6 +23,7 @@ std::span<const char* const> spindrift::gui::core_formats::probing() noexcept {
     QT_TRANSLATE_NOOP("core", "Ball {}"),
     QT_TRANSLATE_NOOP("core", "Balls {} and {} are {:.4g} mm apart and run into each other; allowed: more than {:g} mm."),
     QT_TRANSLATE_NOOP("core", "Distance {} differs from the certificate by {:.2f} mm: are balls swapped or is this another artefact?"),
+    QT_TRANSLATE_NOOP("core", "From {} to {} all holes of {} moved by {:.0f} µm at once, which heat does not do: was the stylus knocked, or did the bar slip? The displacements of the table hold that step."),
     QT_TRANSLATE_NOOP("core", "G{} is not known here"),
     QT_TRANSLATE_NOOP("core", "H{} at {:g} mm runs into H{} at {:g} mm; allowed: holes more than a diameter apart."),
     QT_TRANSLATE_NOOP("core", "No temperature of {} was logged (T_{}_degC): with every kelvin it warms, the expansion of all three screws comes out {:.1f} µm/m too small, beyond the stated uncertainty."),
