@@ -23,6 +23,7 @@
 #include "widgets/jobs/job_bar.h"
 #include "widgets/pages/page.h"
 #include "widgets/report/report_pages.h"
+#include "widgets/services/incoming_service.h"
 #include "widgets/shell/demo.h"
 #include "widgets/shell/news_dialog.h"
 #include "widgets/shell/tour.h"
@@ -154,6 +155,36 @@ TEST_F(FilesTest, SessionsCampaignsAndLogsThatAreDroppedAreOpened) {
   drop({log});
   EXPECT_NE(window_->session().folder(), session) << message();
   EXPECT_TRUE(window_->session().isLogOnly());
+}
+
+TEST_F(FilesTest, FilesThatWereNotLookedAtAreNamedWhenAnotherCampaignIsChosen) {
+  const auto campaign = writeStoryCampaign(folder_, Hidden::Nothing);
+  open(campaign, StepId::Machine);
+  std::filesystem::copy(campaign, folder_ / "other", std::filesystem::copy_options::recursive);
+  (void)folder_.write("other/note.txt", "so that its content is another");
+  const std::int64_t first = window_->session().campaignId();
+  window_->addCampaign(QString::fromStdString((folder_ / "other").string()));
+  wait();
+  ASSERT_NE(window_->session().campaignId(), first);
+  QStringList files;
+  for (const char* name : {"a.png", "b.png", "c.png"})
+    files << QString::fromStdString(folder_.write(name, "no picture").string());
+  std::vector<IncomingItem> answered;
+  int answers = 0;
+  IncomingService::of(window_->session()).takeFiles(files, [&](const std::vector<IncomingItem>& items) {
+    answered = items;
+    ++answers;
+  });
+  window_->session().selectCampaign(first);
+  ASSERT_EQ(answers, 1) << "at once, and once";
+  ASSERT_EQ(answered.size(), 3U);
+  for (const IncomingItem& item : answered) {
+    EXPECT_EQ(item.state, IncomingState::Ignored);
+    EXPECT_NE(item.sentence.find("not looked at, because another campaign was chosen"), std::string::npos);
+  }
+  wait();
+  QTest::qWait(100);
+  EXPECT_EQ(answers, 1);
 }
 
 TEST_F(FilesTest, WhatCannotBeTakenIsSaidInOneSentence) {
