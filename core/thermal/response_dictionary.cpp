@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 #include <span>
 
 #include "core/math/statistics.h"
@@ -161,6 +162,53 @@ Dictionary buildDictionary(const TimeSeries& series, const std::vector<double>& 
   return d;
 }
 
+namespace {
+
+/// Of very many columns those that tell most: each in turn the one whose standardised values the chosen ones explain
+/// least (QR with pivoting). What is left out is told by the others almost whole; nodes of a finite-element model come
+/// by the hundred.
+void leaveOutWhatOthersTell(std::vector<std::string>& kept, const std::vector<std::vector<double>>& values,
+                            std::vector<InputVerdict>& verdicts) {
+  constexpr std::size_t most = 64;
+  constexpr std::size_t most_rows = 1000;
+  if (kept.size() <= most) return;
+  const std::size_t stride = std::max<std::size_t>(1, values.front().size() / most_rows);
+  const auto rows = static_cast<Eigen::Index>((values.front().size() + stride - 1) / stride);
+  Eigen::MatrixXd rest(rows, static_cast<Eigen::Index>(kept.size()));
+  for (Eigen::Index c = 0; c < rest.cols(); ++c) {
+    const std::vector<double>& v = values[static_cast<std::size_t>(c)];
+    for (Eigen::Index r = 0; r < rows; ++r) rest(r, c) = v[static_cast<std::size_t>(r) * stride];
+    const auto finite = rest.col(c).array().isFinite();
+    const double mean = finite.select(rest.col(c).array(), 0.0).sum() / std::max<double>(1.0, finite.count());
+    rest.col(c) = finite.select(rest.col(c).array() - mean, 0.0);
+    rest.col(c) /= std::max(rest.col(c).norm(), std::numeric_limits<double>::min());
+  }
+  std::set<std::size_t> chosen;
+  while (chosen.size() < most) {
+    Eigen::Index next = 0;
+    rest.colwise().squaredNorm().maxCoeff(&next);
+    chosen.insert(static_cast<std::size_t>(next));
+    const Eigen::VectorXd direction = rest.col(next).normalized();
+    rest -= direction * (direction.transpose() * rest);
+    rest.col(next).setZero();
+  }
+  std::vector<std::string> telling;
+  for (std::size_t i = 0; i < kept.size(); ++i) {
+    if (chosen.contains(i)) {
+      telling.push_back(kept[i]);
+      continue;
+    }
+    InputVerdict verdict;
+    verdict.name = kept[i];
+    verdict.reason = fmt::format("the {} columns that are looked at explain {:.1f} % of its variance", most,
+                                 100.0 * (1.0 - rest.col(static_cast<Eigen::Index>(i)).squaredNorm()));
+    verdicts.push_back(verdict);
+  }
+  kept = std::move(telling);
+}
+
+}  // namespace
+
 std::vector<std::string> usableInputs(const TimeSeries& series, const std::string& output,
                                       const std::vector<std::string>& names, double from_s, double to_s,
                                       std::vector<InputVerdict>& verdicts) {
@@ -202,6 +250,7 @@ std::vector<std::string> usableInputs(const TimeSeries& series, const std::strin
       verdicts.push_back(verdict);
     }
   }
+  leaveOutWhatOthersTell(kept, values, verdicts);
   return kept;
 }
 

@@ -44,7 +44,8 @@ struct Dictionary {
                                          const std::vector<std::string>& names, double from_s, double to_s,
                                          const ResponseFitOptions& options);
 
-/// Drops what cannot be used and says why. Throws InputError if an input is the output itself.
+/// Drops what cannot be used and says why; of more than 64 columns those are kept that tell most, so that memory and time
+/// stay what they are with 64. Throws InputError if an input is the output itself.
 [[nodiscard]] std::vector<std::string> usableInputs(const TimeSeries& series, const std::string& output,
                                                     const std::vector<std::string>& names, double from_s, double to_s,
                                                     std::vector<InputVerdict>& verdicts);

@@ -11596,6 +11596,10 @@ endgültig fehlgeschlagen: {}</translation>
         <source>From {} to {} all holes of {} moved by {:.0f} µm at once, which heat does not do: was the stylus knocked, or did the bar slip? The displacements of the table hold that step.</source>
         <translation>Von {} nach {} haben sich alle Bohrungen von {} auf einmal um {:.0f} µm verlagert, was Wärme nicht tut: Wurde der Tastereinsatz angestoßen, oder ist die Leiste verrutscht? Die Verlagerungen des Tisches enthalten diesen Sprung.</translation>
     </message>
+    <message>
+        <source>the {} columns that are looked at explain {:.1f} % of its variance</source>
+        <translation>die {} betrachteten Spalten erklären {:.1f} % seiner Varianz</translation>
+    </message>
 </context>
 <context>
     <name>files</name>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/thermal/response_fit.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -10,6 +11,7 @@
 #include "core/base/json_reader.h"
 #include "core/base/random.h"
 #include "core/thermal/baselines.h"
+#include "core/thermal/response_dictionary.h"
 #include "tests/support/response_run.h"
 #include "tests/support/temp_folder.h"
 
@@ -211,6 +213,47 @@ TEST(ThermalModel, LagsAreExactAtAnySpacing) {
   const std::vector<double> x = lagFiltered(time, time, 700.0, false);
   for (std::size_t i = 0; i < time.size(); ++i)
     EXPECT_NEAR(x[i], time[i] - 700.0 * -std::expm1(-time[i] / 700.0), 1e-8 * (1.0 + time[i]));
+}
+
+// The nodes of a finite-element model: hundreds of columns that tell the same few things.
+TEST(ResponseFit, OfHundredsOfColumnsThoseAreLookedAtThatTellMost) {
+  Random random(3);
+  constexpr std::size_t rows = 600;
+  constexpr std::size_t columns = 220;
+  constexpr std::size_t causes = 5;
+  TimeSeries series;
+  std::vector<std::vector<double>> cause(causes, std::vector<double>(rows));
+  for (std::vector<double>& c : cause) {
+    double level = 0.0;
+    for (double& v : c) v = level += random.normal(0.0, 0.1);
+  }
+  std::vector<std::string> names;
+  for (std::size_t r = 0; r < rows; ++r) series.time_s.push_back(60.0 * static_cast<double>(r));
+  for (std::size_t k = 0; k < columns; ++k) {
+    Signal s{fmt::format("T_{}_degC", k), SignalKind::Temperature, std::vector<double>(rows, 20.0)};
+    for (const std::vector<double>& c : cause) {
+      const double weight = random.normal(0.0, 1.0);
+      for (std::size_t r = 0; r < rows; ++r) s.values[r] += weight * c[r];
+    }
+    for (double& v : s.values) v += random.normal(0.0, 0.002);
+    if (k == 40) s.values[100] = std::nan("");
+    names.push_back(s.name);
+    series.signals.push_back(std::move(s));
+  }
+  Signal z{"z_um", SignalKind::Displacement, cause[2]};
+  series.signals.push_back(z);
+  std::vector<InputVerdict> verdicts;
+  const std::vector<std::string> kept = usableInputs(series, "z_um", names, 0.0, 60.0 * rows, verdicts);
+  EXPECT_EQ(kept.size(), 64U);
+  EXPECT_EQ(verdicts.size(), columns - 64U);
+  for (const InputVerdict& v : verdicts) {
+    EXPECT_FALSE(v.kept);
+    EXPECT_EQ(v.reason, "the 64 columns that are looked at explain 100.0 % of its variance") << v.name;
+    EXPECT_EQ(std::count(kept.begin(), kept.end(), v.name), 0);
+  }
+  std::vector<InputVerdict> none;
+  EXPECT_EQ(usableInputs(series, "z_um", {names.begin(), names.begin() + 64}, 0.0, 60.0 * rows, none).size(), 64U);
+  EXPECT_TRUE(none.empty());
 }
 
 }  // namespace

@@ -132,6 +132,7 @@ std::span<const char* const> spindrift::gui::core_formats::thermal() noexcept {
     QT_TRANSLATE_NOOP("core", "the test is shorter than 4 h: slow influences of the environment are not in it."),
     QT_TRANSLATE_NOOP("core", "the time constants {:.4g} s and {:.4g} s of input {} may be identical: their separate gains are not determined, only the whole response is; use one time constant fewer or a longer range."),
     QT_TRANSLATE_NOOP("core", "the training range holds {} samples of the output at a period of {:.6g} s; allowed: at least {} (a longer training range, or a shorter --period)."),
+    QT_TRANSLATE_NOOP("core", "the {} columns that are looked at explain {:.1f} % of its variance"),
     QT_TRANSLATE_NOOP("core", "there is no temperature, speed, feed or switch to choose inputs from; allowed: --inputs with the names of columns."),
     QT_TRANSLATE_NOOP("core", "time constants or inputs cannot be distinguished with these data; use fewer time constants or inputs."),
     QT_TRANSLATE_NOOP("core", "too few samples"),
