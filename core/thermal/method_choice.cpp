@@ -4,11 +4,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <set>
 #include <utility>
 
+#include "core/base/units.h"
 #include "core/math/statistics.h"
 #include "core/thermal/method_average.h"
 #include "core/thermal/method_candidates.h"
@@ -81,10 +84,91 @@ void MethodChoiceOptions::validate() const {
     if (!(part > 0.0 && part < 1.0)) throw InputError("an origin of the choice must lie between 0 and 1.");
 }
 
+namespace {
+
+/// rms of measured minus predicted over rows that were measured; NaN where there are fewer than ten.
+double errorOver(const TimeSeries& series, const ThermalModel& model, double from_s, double to_s) {
+  const ThermalPrediction prediction = model.predict(series, 0);
+  const std::vector<double>& measured = series.at(model.outputs.front().name).values;
+  double squares = 0.0;
+  std::size_t count = 0;
+  for (std::size_t r = 0; r < series.time_s.size(); ++r) {
+    if (series.time_s[r] < from_s || series.time_s[r] >= to_s) continue;
+    const double error = measured[r] - prediction.value[r];
+    if (!std::isfinite(error)) continue;
+    squares += error * error;
+    ++count;
+  }
+  constexpr std::size_t least = 10;
+  return count < least ? std::nan("") : std::sqrt(squares / static_cast<double>(count));
+}
+
+MethodChoiceResult chooseWithin(const TimeSeries& series, const std::string& output,
+                                const std::vector<std::string>& names, double from_s, double to_s,
+                                const MethodChoiceOptions& options, const JobContext& job);
+
+/// How much of the beginning is better left out, as a part of the training; 0: none.
+double unsettledPart(const TimeSeries& series, const std::string& output, const std::vector<std::string>& names,
+                     double from_s, double to_s, const ThermalModel& whole, const MethodChoiceOptions& options,
+                     const JobContext& job) {
+  constexpr double beginning = 0.15;
+  constexpr double far_off = 2.0;
+  constexpr double judged_from = 0.7;
+  constexpr double telling = 0.5;
+  const double span = to_s - from_s;
+  const double early = errorOver(series, whole, from_s, from_s + beginning * span);
+  const double later = errorOver(series, whole, from_s + 2.0 * beginning * span, to_s);
+  if (!(early > far_off * later)) return 0.0;
+  const double split = from_s + judged_from * span;
+  constexpr std::array parts{0.0, 0.1, 0.2, 0.3};
+  double best = std::numeric_limits<double>::infinity();
+  double with_all = best;
+  double best_part = 0.0;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const auto at = static_cast<double>(i) / static_cast<double>(parts.size());
+    try {
+      const MethodChoiceResult without = chooseWithin(series, output, names, from_s + parts[i] * span, split, options,
+                                                      job.part(at, at + 1.0 / static_cast<double>(parts.size())));
+      if (without.status != FitStatus::Converged) continue;
+      const double error = errorOver(series, without.model, split, to_s);
+      if (i == 0) with_all = error;
+      if (!(error < best)) continue;
+      best = error;
+      best_part = parts[i];
+    } catch (const InputError&) {
+      continue;  // too little is left
+    }
+  }
+  return best < telling * with_all ? best_part : 0.0;
+}
+
+}  // namespace
+
 MethodChoiceResult chooseMethod(const TimeSeries& series, const std::string& output,
                                 const std::vector<std::string>& names, double from_s, double to_s,
                                 const MethodChoiceOptions& options, const JobContext& job) {
   options.validate();
+  MethodChoiceResult whole = chooseWithin(series, output, names, from_s, to_s, options, job.part(0.0, 0.4));
+  if (!options.may_settle || whole.status != FitStatus::Converged || series.time_s.empty()) return whole;
+  const double from = std::max(from_s, series.time_s.front());
+  const double to = std::min(to_s, series.time_s.back());
+  const double part = unsettledPart(series, output, names, from, to, whole.model, options, job.part(0.4, 0.8));
+  if (part == 0.0) return whole;
+  MethodChoiceResult settled =
+      chooseWithin(series, output, names, from + part * (to - from), to_s, options, job.part(0.8, 1.0));
+  if (settled.status != FitStatus::Converged) return whole;
+  settled.notes.push_back(fmt::format(
+      "The first {:.1f} h of the training are left out: the machine still followed what was before the record, and "
+      "models without them predict the rest of the training with less than half of the error.",
+      part * (to - from) / seconds_per_hour));
+  return settled;
+}
+
+namespace {
+
+MethodChoiceResult chooseWithin(const TimeSeries& series, const std::string& output,
+                                const std::vector<std::string>& names, double from_s, double to_s,
+                                const MethodChoiceOptions& options, const JobContext& job) {
   MethodChoiceResult result;
   std::vector<InputVerdict> refused;
   const std::vector<std::string> usable = usableInputs(series, output, names, from_s, to_s, refused);
@@ -206,5 +290,7 @@ MethodChoiceResult chooseMethod(const TimeSeries& series, const std::string& out
                                result.model.outputs.front().terms.size());
   return result;
 }
+
+}  // namespace
 
 }  // namespace spindrift

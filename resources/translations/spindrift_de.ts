@@ -11600,6 +11600,10 @@ endgültig fehlgeschlagen: {}</translation>
         <source>the {} columns that are looked at explain {:.1f} % of its variance</source>
         <translation>die {} betrachteten Spalten erklären {:.1f} % seiner Varianz</translation>
     </message>
+    <message>
+        <source>The first {:.1f} h of the training are left out: the machine still followed what was before the record, and models without them predict the rest of the training with less than half of the error.</source>
+        <translation>Die ersten {:.1f} h des Trainings sind ausgelassen: Die Maschine folgte noch dem, was vor der Aufzeichnung war, und Modelle ohne sie sagen den Rest des Trainings mit weniger als der Hälfte der Abweichung voraus.</translation>
+    </message>
 </context>
 <context>
     <name>files</name>

@@ -24,6 +24,7 @@ std::span<const char* const> spindrift::gui::core_formats::thermal() noexcept {
     QT_TRANSLATE_NOOP("core", "Output {} has the unit \"{}\"; allowed: \"um\" or \"urad\"."),
     QT_TRANSLATE_NOOP("core", "Output {} uses input {}, which the model does not have."),
     QT_TRANSLATE_NOOP("core", "The cycle time must be positive."),
+    QT_TRANSLATE_NOOP("core", "The first {:.1f} h of the training are left out: the machine still followed what was before the record, and models without them predict the rest of the training with less than half of the error."),
     QT_TRANSLATE_NOOP("core", "The identification called the model of {} not good enough ({}); allowed: a better model, or loading it by force."),
     QT_TRANSLATE_NOOP("core", "The log has no spindle speed: that the machine was at rest could not be checked."),
     QT_TRANSLATE_NOOP("core", "The model has more than 1024 time constants."),
