@@ -46,7 +46,10 @@ StoredResults storedOf(const TaskGraph& graph) {
   out.warm_up = payload("check-warm-up");
   out.jogs = payload("check-jogs");
   out.repeatability = payload("check-repeatability");
-  if (const TaskKind* fit = &taskKind("fit", graph.facts()); fit->told) out.fit = payload("fit");
+  // In place of what is evaluated now only while it holds.
+  if (const StoredResult* fit = graph.latest("fit");
+      fit != nullptr && taskKind("fit", graph.facts()).told && graph.holds(*fit))
+    out.fit = fit->payload;
   out.thermal = payload("thermal");
   out.compensation = payload("compensation");
   out.log_compensation = payload("log-compensation");

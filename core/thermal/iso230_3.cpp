@@ -195,6 +195,13 @@ std::pair<double, std::map<std::pair<std::string, int>, double>> scatterOf(const
   return {n > p ? std::sqrt(rest.squaredNorm() / static_cast<double>(n - p)) : 0.0, constant};
 }
 
+/// From the beginning to the end of the test, but for a tenth of it.
+bool spans(const std::vector<AxisReading>& series, const std::vector<AxisReading>& test) {
+  const double end = 0.1 * (test.back().time_s - test.front().time_s);
+  return series.size() >= 2 && series.front().time_s <= test.front().time_s + end &&
+         series.back().time_s >= test.back().time_s - end;
+}
+
 AxisPositionResult evaluatePosition(const std::vector<AxisReading>& readings, double position) {
   AxisPositionResult out;
   out.position_mm = position;
@@ -205,7 +212,6 @@ AxisPositionResult evaluatePosition(const std::vector<AxisReading>& readings, do
                                  position, out.readings));
   const auto [s, constant] = scatterOf(series);
   std::map<std::string, std::pair<double, double>> range;
-  const double end = 0.1 * (readings.back().time_s - readings.front().time_s);
   double changes = 0.0;
   double reversals = 0.0;
   double spanning = 0.0;
@@ -222,9 +228,7 @@ AxisPositionResult evaluatePosition(const std::vector<AxisReading>& readings, do
       reversals += other->second - constant.at(key);
       both += 1.0;
     }
-    if (list.size() < 2 || list.front().time_s > readings.front().time_s + end ||
-        list.back().time_s < readings.back().time_s - end)
-      continue;
+    if (!spans(list, readings)) continue;
     changes += list.back().deviation_um - list.front().deviation_um;
     spanning += 1.0;
   }
@@ -468,7 +472,7 @@ AxisResult evaluateMovingAxis(std::vector<AxisReading> readings) {
     double sum = 0.0;
     double count = 0.0;
     for (const auto& [key, list] : below) {
-      if (key.second != direction || list.size() < 2) continue;
+      if (key.second != direction || !spans(list, readings)) continue;
       const auto at = std::lower_bound(list.begin(), list.end(), time_s,
                                        [](const AxisReading& r, double t) { return r.time_s < t; });
       const auto next = std::clamp(at, list.begin() + 1, list.end() - 1);
@@ -481,6 +485,7 @@ AxisResult evaluateMovingAxis(std::vector<AxisReading> readings) {
     return count > 0.0 ? sum / count : std::nan("");
   };
   for (const auto& [key, list] : seriesAt(readings, high_mm)) {
+    if (!spans(list, readings)) continue;
     const double zero = changeBelow(list.front().time_s, key.second);
     for (const AxisReading& r : list) {
       const double change = r.deviation_um - list.front().deviation_um - (changeBelow(r.time_s, key.second) - zero);

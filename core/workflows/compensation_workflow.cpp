@@ -646,6 +646,7 @@ CompensationPlan planCompensation(const Campaign& campaign, const ObservationSet
                                      : prepareNineParameters(observations, request, plan);
   addNumbers(plan);
   if (request.source == CompensationSource::CompletedModel) addHeldOut(plan);
+  if (std::string why = plan.harm(); !why.empty()) plan.warnings.insert(plan.warnings.begin(), std::move(why));
   job.throwIfCancelled();
   job.report(0.7, "writing the tables");
   makeFiles(campaign.machine, prepared, request, plan);
@@ -717,7 +718,6 @@ std::string CompensationPlan::summary() const {
   } else {
     text += fmt::format("  {}\n", unseen);
   }
-  if (const std::string why = harm(); !why.empty()) text += fmt::format("  {}\n", why);
   if (!limitation.empty()) text += fmt::format("  note: {}\n", limitation);
   for (const std::string& w : warnings) text += fmt::format("  note: {}\n", w);
   for (const CompensationFile& f : files) text += fmt::format("  {}: {}. {}\n", f.name, f.title, f.convention);

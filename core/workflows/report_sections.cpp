@@ -413,6 +413,7 @@ void addCompensation(Report& document, const StoredResults& stored) {
   if (!plan.is_object() || !plan.contains("points")) return;
   document.section("Compensation");
   addOutdated(document, stored, "compensation");
+  if (!plan.value("good_enough", true)) document.callout(CalloutKind::Bad, textOf(plan, "message"));
   document.paragraph(fmt::format("{}, relative to {}. Compensation = −deviation: what is added to the command.",
                                  textOf(plan, "model"), textOf(plan, "reference")));
   document.facts(

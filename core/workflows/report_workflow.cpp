@@ -96,10 +96,6 @@ void tellStoredFit(std::vector<InstrumentEvaluation>& instruments, const StoredR
     } else {
       one.details.update(fit);
     }
-    const auto changed = stored.changed.find("fit");
-    if (changed != stored.changed.end())
-      one.warnings.push_back(fmt::format(
-          "The parameters are those of an outdated model. Changed since it was fitted: {}.", changed->second));
   }
 }
 

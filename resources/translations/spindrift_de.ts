@@ -11581,10 +11581,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Bei Daten, die nicht zur Anpassung dienten, lässt die Korrektur {:.2f} µm übrig, wo {:.2f} µm gemessen wurden: Sie darf nicht verwendet werden.</translation>
     </message>
     <message>
-        <source>The parameters are those of an outdated model. Changed since it was fitted: {}.</source>
-        <translation>Die Parameter sind die eines veralteten Modells. Geändert seit der Anpassung: {}.</translation>
-    </message>
-    <message>
         <source>the reference position {} {:g} mm lies outside the travel; allowed: {:g} to {:g} mm.</source>
         <translation>die Bezugsposition {} {:g} mm liegt außerhalb des Verfahrwegs; zulässig: {:g} bis {:g} mm.</translation>
     </message>
@@ -17431,6 +17427,10 @@ ihrem Ordner und führen nicht hinaus.
     <message>
         <source>Remains / µm</source>
         <translation>Verbleibt / µm</translation>
+    </message>
+    <message>
+        <source>No file was written. %1</source>
+        <translation>Es wurde keine Datei geschrieben. %1</translation>
     </message>
 </context>
 <context>

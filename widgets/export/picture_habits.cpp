@@ -139,15 +139,18 @@ bool PictureHabits::eventFilter(QObject* watched, QEvent* event) {
       return true;
     }
     case QEvent::MouseButtonPress:
+    case QEvent::MouseMove:
     case QEvent::MouseButtonRelease: {
-      const auto* mouse = static_cast<QMouseEvent*>(event);
-      if (mouse->button() != Qt::RightButton) break;
       auto* view = qobject_cast<View3D*>(watched);
       if (view == nullptr) break;
+      const auto* mouse = static_cast<QMouseEvent*>(event);
       const QPoint place = mouse->globalPosition().toPoint();
+      right_moved_ = right_moved_ || (place - right_pressed_at_).manhattanLength() > still_pixels;
+      if (mouse->button() != Qt::RightButton) break;
       if (event->type() == QEvent::MouseButtonPress) {
         right_pressed_at_ = place;
-      } else if ((place - right_pressed_at_).manhattanLength() <= still_pixels) {
+        right_moved_ = false;
+      } else if (!right_moved_) {
         openPictureMenu(view, place);
       }
       break;

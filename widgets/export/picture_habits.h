@@ -21,6 +21,7 @@ class PictureHabits : public QObject {
 
  private:
   QPoint right_pressed_at_;
+  bool right_moved_ = false;
 };
 
 }  // namespace spindrift::gui

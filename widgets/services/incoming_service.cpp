@@ -302,7 +302,7 @@ void IncomingService::takeFiles(const QStringList& files, std::function<void(con
   follow();
   if (session_.campaign() == nullptr) return;
   handed_.push_back({files, {}, std::move(done)});
-  if (handed_.size() == 1) takeNext();
+  if (!looking_) takeNext();
 }
 
 /// One after the other: each is held against those before it.
@@ -312,7 +312,8 @@ void IncomingService::takeNext() {
     handed_.pop_front();
     all.done(all.answered);
   }
-  if (handed_.empty()) return;
+  if (handed_.empty() || looking_) return;  // whoever was answered may have given more
+  looking_ = true;
   const QFileInfo file(handed_.front().waiting.front());
   Job job;
   job.title = tr("Checking %1").arg(file.fileName());
@@ -344,6 +345,7 @@ void IncomingService::takeNext() {
 }
 
 void IncomingService::answerHanded(IncomingItem item) {
+  looking_ = false;
   Handed& handed = handed_.front();
   handed.waiting.removeFirst();
   handed.answered.push_back(std::move(item));
@@ -352,6 +354,7 @@ void IncomingService::answerHanded(IncomingItem item) {
 
 /// Nothing of these files is lost: they lie where they came from.
 void IncomingService::giveUpHanded() {
+  looking_ = false;
   for (Handed& handed : std::exchange(handed_, {})) {
     for (const QString& file : handed.waiting) {
       IncomingItem left;

@@ -103,6 +103,7 @@ class IncomingService : public QObject {
   int pictures_ = 0;
   bool examining_ = false;
   std::deque<Handed> handed_;
+  bool looking_ = false;  ///< at one of them
   std::unique_ptr<IncomingFolder> folder_;
   CaptureIntake intake_;
   std::map<std::string, QImage> thumbnails_;

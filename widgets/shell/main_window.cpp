@@ -18,6 +18,7 @@
 #include <QMenu>
 #include <QMenuBar>
 #include <QMessageBox>
+#include <QPointer>
 #include <QPushButton>
 #include <QScreen>
 #include <QSettings>
@@ -194,7 +195,8 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent), workflow_(session
           [this] { theme_button_->setIcon(icon(theme().kind == ThemeKind::Dark ? "sun" : "moon")); });
 
   QCoreApplication::instance()->installEventFilter(this);
-  (void)new PictureHabits(this);
+  static QPointer<PictureHabits> of_all_windows;
+  if (of_all_windows == nullptr) of_all_windows = new PictureHabits(QCoreApplication::instance());
   QSettings settings;
   const QStringList recent = recentSessions();
   setAcceptDrops(true);

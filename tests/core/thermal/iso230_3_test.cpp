@@ -212,7 +212,8 @@ TEST(Iso2303, MovingAxisOfSeveralPointsAndInAnyOrderOfDirections) {
   EXPECT_NEAR(r.high.reversal_um, 0.4, 1e-9);
   EXPECT_NEAR(r.high.range_um, 9.4, 1e-9);
   EXPECT_LT(r.low.repeatability_um, 1e-6);
-  EXPECT_NEAR(r.expansion_over_time_um.back(), 8.0, 1e-9);
+  for (std::size_t i = 0; i < r.time_s.size(); ++i)
+    EXPECT_NEAR(r.expansion_over_time_um[i], 8.0 * r.time_s[i] / 9600.0, 1e-9) << r.time_s[i];
   // One direction at the beginning, the other at the end.
   std::vector<AxisReading> halves;
   for (const double position : {50.0, 450.0})

@@ -186,7 +186,6 @@ std::span<const char* const> spindrift::gui::core_formats::workflows() noexcept 
     QT_TRANSLATE_NOOP("core", "The machines have different names: \"{}\" before, \"{}\" after."),
     QT_TRANSLATE_NOOP("core", "The model of {} was called not good enough when it was identified ({}); do not use this compensation on a machine."),
     QT_TRANSLATE_NOOP("core", "The one capture of the plan is there."),
-    QT_TRANSLATE_NOOP("core", "The parameters are those of an outdated model. Changed since it was fitted: {}."),
     QT_TRANSLATE_NOOP("core", "The plan has no {} left to take; it is kept aside."),
     QT_TRANSLATE_NOOP("core", "The plan of the loop: {}"),
     QT_TRANSLATE_NOOP("core", "The reference of the commands is in the English manual."),

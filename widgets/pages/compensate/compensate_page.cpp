@@ -322,6 +322,11 @@ void CompensatePage::compute() {
 
 void CompensatePage::exportFiles(const QString& folder) {
   if (!plan_) return;
+  if (const std::string harm = plan_->harm(); !harm.empty()) {
+    callout()->setAction({}, {});
+    callout()->show(Tone::Bad, tr("No file was written. %1").arg(coreSentence(harm)));
+    return;
+  }
   try {
     QDir().mkpath(folder);
     for (const CompensationFile& f : plan_->files) {
@@ -340,6 +345,7 @@ std::vector<Exportable> CompensatePage::exportables() {
   if (!plan_) return items;
   items.push_back(exportableOf(tr("Corrections at the points"), points_));
   items.push_back(exportableOf(tr("Corrections on the machine"), view_));
+  if (!plan_->harm().empty()) return items;
   for (const CompensationFile& f : plan_->files) {
     const QString name = QString::fromStdString(f.name);
     items.push_back({name.section(QLatin1Char('.'), 0, 0),

@@ -226,6 +226,7 @@ DiscrepancyPage::DiscrepancyPage(PageContext page_context, QWidget* parent)
   });
   connect(&context().jobs, &JobRunner::started, this, &DiscrepancyPage::updateButtons);
   connect(&context().jobs, &JobRunner::finished, this, &DiscrepancyPage::updateButtons);
+  connect(&session(), &SessionModel::workChanged, this, &DiscrepancyPage::updateButtons);  // asked for, and waits
 }
 
 QString DiscrepancyPage::missing() const {
@@ -378,7 +379,7 @@ void DiscrepancyPage::choiceChanged() {
   context().workflow.refresh();
   refresh();
   search();
-  if (context().jobs.working()) {
+  if (session().isRunning(discrepancy_result)) {
     callout()->setAction({}, {});
     callout()->show(Tone::Accent, tr("Fitting again with the effects as they are now. What is shown is of before."));
   }

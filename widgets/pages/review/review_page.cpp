@@ -225,6 +225,7 @@ void ReviewPage::sayWhatIsOutdated() {
   QStringList told;
   std::set<std::int64_t> looked_at;
   for (const ReviewPane* pane : panes_) {
+    if (pane->isHidden()) continue;
     const std::int64_t id = pane->campaignChoice()->currentData().toLongLong();
     const auto source = looked_at.insert(id).second ? sources_.source(id) : nullptr;
     if (source == nullptr || source->changed.empty()) continue;

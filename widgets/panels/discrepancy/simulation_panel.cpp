@@ -108,6 +108,7 @@ SimulationPanel::SimulationPanel(PageContext context, QWidget* parent) : QWidget
   connect(history_, &SimulationHistory::hovered, this, &SimulationPanel::hovered);
   connect(&context_.jobs, &JobRunner::started, this, &SimulationPanel::updateButtons);
   connect(&context_.jobs, &JobRunner::finished, this, &SimulationPanel::updateButtons);
+  connect(&context_.session, &SessionModel::workChanged, this, &SimulationPanel::updateButtons);
 }
 
 QTableView* SimulationPanel::parameterTable() const {
