@@ -256,17 +256,17 @@ TEST_F(ReportSections, TellsTheModelThatWasFittedInPlaceOfTheUsualOne) {
   };
   InstrumentEvaluation probe;
   probe.instrument = "touch_probe";
-  probe.details = {{"cycles", {cycle("C0", "bar", 0), cycle("C1", "bar", 12.25), cycle("C1", "other", 33.75)}},
+  probe.details = {{"cycles", {cycle("C0", "bar", 0), cycle("C1", "bar", 12.4), cycle("C1", "other", 33.8)}},
                    {"artefacts", {{{"artefact", "bar"}}, {{"artefact", "other"}}}}};
   ReportOptions options;
   options.evaluated.emplace();
   options.evaluated->instruments = {probe};
-  EXPECT_THAT(html(options), HasSubstr("12.3 ± 0.5"));
+  EXPECT_THAT(html(options), HasSubstr("12.4 ± 0.5"));
   options.stored.fit = {
-      {"artefact", "bar"}, {"status", "converged"}, {"cycles", {cycle("C0", "bar", 0), cycle("C1", "bar", 27.75)}}};
+      {"artefact", "bar"}, {"status", "converged"}, {"cycles", {cycle("C0", "bar", 0), cycle("C1", "bar", 27.6)}}};
   const std::string told = html(options);
-  EXPECT_THAT(told, HasSubstr("27.8 ± 0.5")) << "as the step Model shows it";
-  EXPECT_THAT(told, Not(HasSubstr("12.3 ± 0.5")));
+  EXPECT_THAT(told, HasSubstr("27.6 ± 0.5")) << "as the step Model shows it";
+  EXPECT_THAT(told, Not(HasSubstr("12.4 ± 0.5")));
   EXPECT_THAT(told, HasSubstr("33.8 ± 0.5")) << "the other artefact has no model of its own";
 }
 
