@@ -243,7 +243,7 @@ TEST(ResponseFit, OfHundredsOfColumnsThoseAreLookedAtThatTellMost) {
   Signal z{"z_um", SignalKind::Displacement, cause[2]};
   series.signals.push_back(z);
   std::vector<InputVerdict> verdicts;
-  const std::vector<std::string> kept = usableInputs(series, "z_um", names, 0.0, 60.0 * rows, verdicts);
+  const std::vector<std::string> kept = response::usableInputs(series, "z_um", names, 0.0, 60.0 * rows, verdicts);
   EXPECT_EQ(kept.size(), 64U);
   EXPECT_EQ(verdicts.size(), columns - 64U);
   for (const InputVerdict& v : verdicts) {
@@ -252,7 +252,8 @@ TEST(ResponseFit, OfHundredsOfColumnsThoseAreLookedAtThatTellMost) {
     EXPECT_EQ(std::count(kept.begin(), kept.end(), v.name), 0);
   }
   std::vector<InputVerdict> none;
-  EXPECT_EQ(usableInputs(series, "z_um", {names.begin(), names.begin() + 64}, 0.0, 60.0 * rows, none).size(), 64U);
+  EXPECT_EQ(response::usableInputs(series, "z_um", {names.begin(), names.begin() + 64}, 0.0, 60.0 * rows, none).size(),
+            64U);
   EXPECT_TRUE(none.empty());
 }
 
