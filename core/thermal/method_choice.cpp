@@ -157,6 +157,7 @@ MethodChoiceResult chooseMethod(const TimeSeries& series, const std::string& out
   MethodChoiceResult settled =
       chooseWithin(series, output, names, from + part * (to - from), to_s, options, job.part(0.8, 1.0));
   if (settled.status != FitStatus::Converged) return whole;
+  settled.model.train_from_s = whole.model.train_from_s;  // looked at all the same: no row of it judges anything
   settled.notes.push_back(fmt::format(
       "The first {:.1f} h of the training are left out: the machine still followed what was before the record, and "
       "models without them predict the rest of the training with less than half of the error.",

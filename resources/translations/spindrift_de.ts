@@ -18011,8 +18011,8 @@ ihrem Ordner und führen nicht hinaus.
         <translation>Entlang der Leiste / mm</translation>
     </message>
     <message>
-        <source>Straightness deviation / µm</source>
-        <translation>Geradheitsabweichung / µm</translation>
+        <source>Deviation / µm</source>
+        <translation>Abweichung / µm</translation>
     </message>
     <message>
         <source>Deviations from a straight line will appear here</source>

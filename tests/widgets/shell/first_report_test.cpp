@@ -89,9 +89,8 @@ class FirstReportTest : public StoryTest, public ::testing::WithParamInterface<c
         told.find(GetParam() == std::string("holes") ? "## Hole bar" : "## Fiducials of your own artwork");
     ASSERT_NE(section, std::string::npos);
     told = told.substr(section, told.find("\n## ", section) - section);
-    EXPECT_NE(told.find("| " + way + " | " + std::to_string(clicks_) + " clicks, " + std::to_string(keys_) + " keys |"),
-              std::string::npos)
-        << way << ": " << clicks_ << " clicks, " << keys_ << " keys";
+    const std::string actions = countOf(clicks_, "click") + ", " + countOf(keys_, "key");
+    EXPECT_NE(told.find("| " + way + " | " + actions + " |"), std::string::npos) << way << ": " << actions;
   }
 
   int clicks_ = 0;

@@ -70,7 +70,7 @@ QWidget* CycleModelPage::makeVolumePart() {
 QWidget* CycleModelPage::makeBarPart() {
   auto* card = new Card(tr("Straightness and the second axis"));
   line_ = new Plot;
-  line_->setAxes(tr("Along the bar / mm"), tr("Straightness deviation / µm"));
+  line_->setAxes(tr("Along the bar / mm"), tr("Deviation / µm"));
   line_->setEmptyText(tr("Deviations from a straight line will appear here"),
                       tr("Fit all cycles: the deviation of the axis from uniform expansion is drawn for each hole."));
   card->body()->addWidget(line_, 3);
