@@ -67,7 +67,7 @@ TEST(FitWorkflow, ARejectedFitStatesNothing) {
   EXPECT_TRUE(json.at("covariance").at(0).at(0).is_null());
   EXPECT_TRUE(json.at("lack_of_fit_um").at("EX").is_null());
   EXPECT_EQ(json.at("undetermined").size(), 9U);
-  EXPECT_THAT(summaryOf(fit), HasSubstr("EX    not determined"));
+  EXPECT_THAT(summaryOf(fit), HasSubstr("EX         not determined"));
   EXPECT_THAT(summaryOf(fit), ::testing::Not(HasSubstr("condition number")));
   EXPECT_FALSE(nineParameterMaps(campaign.machine, fit, {}, {}).has_value());
   const NineParameterComparison compared =
