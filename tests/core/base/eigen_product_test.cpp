@@ -28,8 +28,13 @@ MatrixXd writtenOut(const MatrixXd& a, const MatrixXd& b) {
 
 TEST(EigenProduct, IsTheSumOfTheProductsInEveryOrder) {
   Random random(41);
-  for (const auto& [m, k, n] :
-       {std::array<Index, 3>{25, 30, 20}, {1, 40, 9}, {40, 1, 40}, {3, 100, 2}, {39, 39, 39}, {40, 40, 40}, {130, 70, 260}}) {
+  for (const auto& [m, k, n] : {std::array<Index, 3>{25, 30, 20},
+                                {1, 40, 9},
+                                {40, 1, 40},
+                                {3, 100, 2},
+                                {39, 39, 39},
+                                {40, 40, 40},
+                                {130, 70, 260}}) {
     const MatrixXd a = drawn(random, m, k), b = drawn(random, k, n), expected = writtenOut(a, b);
     const MatrixXd at = a.transpose(), bt = b.transpose();
     const ByRows a_rows = a, b_rows = b;
