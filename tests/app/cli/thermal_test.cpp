@@ -92,10 +92,9 @@ TEST_F(Thermal, SeveralOutputsGoIntoOneModelThatPredictsAsEachAlone) {
     EXPECT_NEAR(j["outputs"][i]["test"]["rmse"].get<double>(), alone["test"]["rmse"].get<double>(), 1e-12);
     for (const nlohmann::json& input : alone["model"]["inputs"]) EXPECT_EQ(input["name"], "spindle_rpm");
   }
-  // By their name and power: none is there twice.
-  std::set<std::pair<std::string, double>> inputs;
-  for (const nlohmann::json& input : j["model"]["inputs"])
-    inputs.emplace(input["name"].get<std::string>(), input["power"].get<double>());
+  // Those of the two outputs differ where their training does (its beginning may be left out); none is there twice.
+  std::set<std::string> inputs;
+  for (const nlohmann::json& input : j["model"]["inputs"]) inputs.insert(input.dump());
   EXPECT_EQ(inputs.size(), j["model"]["inputs"].size()) << "inputs are shared";
   EXPECT_EQ(linesOf(prediction).front(),
             "time_s,measured_growth_um,predicted_growth_um,measured_T_nose_degC,predicted_T_nose_degC");
