@@ -206,7 +206,11 @@ AxisPositionResult evaluatePosition(const std::vector<AxisReading>& readings, do
   AxisPositionResult out;
   out.position_mm = position;
   const AxisSeries series = seriesAt(readings, position);
-  for (const auto& [key, list] : series) out.readings += list.size();
+  double stated = 0.0;
+  for (const auto& [key, list] : series) {
+    out.readings += list.size();
+    for (const AxisReading& r : list) stated += r.sigma_um * r.sigma_um;
+  }
   if (out.readings < 4)
     throw InputError(fmt::format("position {} mm was measured {} times; allowed: at least 4 times over the test.",
                                  position, out.readings));
@@ -239,7 +243,9 @@ AxisPositionResult evaluatePosition(const std::vector<AxisReading>& readings, do
                     position));
   }
   out.change_um = changes / spanning;
-  out.change_sigma_um = s * std::sqrt(2.0 / spanning);
+  // A few readings lie on a smooth course whatever their noise.
+  stated = std::sqrt(stated / static_cast<double>(out.readings));
+  out.change_sigma_um = std::max(s, stated) * std::sqrt(2.0 / spanning);
   out.repeatability_um = 2.0 * s;
   out.reversal_um = both > 0.0 ? reversals / both : std::nan("");
   return out;

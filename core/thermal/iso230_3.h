@@ -92,11 +92,12 @@ struct AxisReading {
   double deviation_um = 0.0;
   int direction = 1;       ///< of approach, +1 or -1
   std::string point = {};  ///< beside others at the same position
+  double sigma_um = 0.0;   ///< standard uncertainty as stated; 0: not stated
 };
 struct AxisPositionResult {
   double position_mm = 0.0;
-  double change_um = 0.0;  ///< last minus first reading, mean over the series that span the test
-  double change_sigma_um = 0.0;
+  double change_um = 0.0;         ///< last minus first reading, mean over the series that span the test
+  double change_sigma_um = 0.0;   ///< from the scatter, or from what is stated where that is more
   double range_um = 0.0;          ///< largest of a point, both directions
   double repeatability_um = 0.0;  ///< 2 s of the deviations from a time history (up to the third power) of all series
   double reversal_um = 0.0;       ///< + minus - at one moment, mean over points; NaN if none has both

@@ -52,7 +52,7 @@ Iso230Result evaluateAxis(const Iso230Request& request) {
   std::vector<AxisReading> readings;
   for (const Observation& o : set.rows) {
     if (o.use == ObservationUse::Exclude || isRotation(o.component) || axisIndex(o.component) != index) continue;
-    readings.push_back({o.time_s, o.position_mm[index], o.value, o.approach[index] < 0.0 ? -1 : 1, o.point});
+    readings.push_back({o.time_s, o.position_mm[index], o.value, o.approach[index] < 0.0 ? -1 : 1, o.point, o.sigma});
   }
   if (readings.empty()) {
     throw InputError(

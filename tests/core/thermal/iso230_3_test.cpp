@@ -243,6 +243,18 @@ TEST(Iso2303, TheChangeOfAnAxisIsAsUncertainAsStated) {
   EXPECT_NEAR(normalised, 1.0, 0.25);
 }
 
+// Four readings of each point, and a time history that goes through all of them: what is stated is what is known.
+TEST(Iso2303, FewReadingsOfAnAxisAreNoBetterThanTheyState) {
+  std::vector<AxisReading> readings;
+  for (int k = 0; k < 4; ++k)
+    for (const double position : {50.0, 250.0})
+      readings.push_back({600.0 * k, position, 0.01 * position * k, 1, "F1", 0.1});
+  const AxisResult r = evaluateMovingAxis(readings);
+  EXPECT_NEAR(r.expansion_um, 6.0, 1e-9);
+  EXPECT_NEAR(r.low.change_sigma_um, 0.1 * std::sqrt(2.0), 1e-9);
+  EXPECT_NEAR(r.expansion_sigma_um, 0.2, 1e-9);
+}
+
 // Most neighbours of a quiet record are equal where it is read in steps: that is no reason to be certain.
 TEST(Iso2303, ReadingsInStepsAreNoBetterThanTheirSteps) {
   std::vector<double> time;
