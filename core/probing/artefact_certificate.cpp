@@ -44,13 +44,24 @@ std::string ArtefactCertificate::takenAsExact(const std::string& artefact, doubl
       joinedList(taken_as_exact), artefact, strain * um_per_m_per_unit);
 }
 
-std::optional<double> artefactTemperature(const Artefact& artefact, const OperatingLog* log, double time_s) {
+namespace {
+/// Empty: there is none.
+std::string temperatureColumn(const Artefact& artefact, const OperatingLog* log) {
   if (log != nullptr && !log->empty()) {
-    for (const std::string& name : {fmt::format("T_{}_degC", artefact.id), std::string("T_artefact_degC")}) {
-      if (log->has(name)) return log->at(name, time_s);
-    }
+    for (const std::string& name : {fmt::format("T_{}_degC", artefact.id), std::string("T_artefact_degC")})
+      if (log->has(name)) return name;
   }
-  return artefact.temperature_degC;
+  return {};
+}
+}  // namespace
+
+bool temperatureIsLogged(const Artefact& artefact, const OperatingLog* log) {
+  return !temperatureColumn(artefact, log).empty();
+}
+
+std::optional<double> artefactTemperature(const Artefact& artefact, const OperatingLog* log, double time_s) {
+  const std::string column = temperatureColumn(artefact, log);
+  return column.empty() ? artefact.temperature_degC : log->at(column, time_s);
 }
 
 ArtefactGrowth artefactGrowth(const ArtefactCertificate& certificate, const Artefact& artefact, const OperatingLog* log,
@@ -65,8 +76,7 @@ ArtefactGrowth artefactGrowth(const ArtefactCertificate& certificate, const Arte
   const auto cycles = static_cast<Eigen::Index>(cycle_time_s.size());
   const double alpha = *certificate.expansion_per_K;
   // A temperature that the machine file states once is the same error in all cycles, and no growth.
-  growth.measured = log != nullptr && !log->empty() &&
-                    (log->has(fmt::format("T_{}_degC", artefact.id)) || log->has("T_artefact_degC"));
+  growth.measured = temperatureIsLogged(artefact, log);
   growth.factors = Eigen::MatrixXd::Zero(cycles, cycles + 1);
   for (Eigen::Index k = 0; k < cycles; ++k) {
     const double warmer = growth.temperature_degC[static_cast<std::size_t>(k)] - growth.temperature_degC.front();

@@ -35,6 +35,8 @@ struct ArtefactCertificate {
   [[nodiscard]] static ArtefactCertificate of(const MachineDescription& machine, const Artefact& artefact);
 };
 
+/// Whether the log has a column of it (T_<id>_degC, T_artefact_degC). `log` may be null.
+[[nodiscard]] bool temperatureIsLogged(const Artefact& artefact, const OperatingLog* log);
 /// Temperature of the artefact at a time, if anything tells it. `log` may be null.
 [[nodiscard]] std::optional<double> artefactTemperature(const Artefact& artefact, const OperatingLog* log,
                                                         double time_s);

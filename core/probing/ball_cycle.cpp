@@ -76,8 +76,7 @@ std::map<std::string, Eigen::Vector3d> ballArms(const TouchList& list, const Mac
 /// less, all three alike. Empty: it is known, or nothing speaks for any.
 std::string unknownGrowth(const Artefact& artefact, const ArtefactCertificate& certificate, const OperatingLog* log,
                           const std::vector<double>& cycle_time_s) {
-  const bool logged = log != nullptr && !log->empty() &&
-                      (log->has(fmt::format("T_{}_degC", artefact.id)) || log->has("T_artefact_degC"));
+  const bool logged = temperatureIsLogged(artefact, log);
   if (!certificate.expansion_per_K) {
     if (!logged || cycle_time_s.empty()) return {};
     double low = std::numeric_limits<double>::infinity();
