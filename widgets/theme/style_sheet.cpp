@@ -106,6 +106,7 @@ QTabWidget::pane { border: none; border-top: 1px solid @border@; }
 QTabBar { background: transparent; }
 QTabBar::scroller { width: 28px; }
 QTabBar::tear { width: 0; border: none; image: none; }
+QLineEdit > QToolButton, QLineEdit > QToolButton:focus { min-width: 0; min-height: 0; padding: 0; border: none; }
 QTabBar QToolButton { min-width: 26px; max-width: 26px; border: none; border-radius: 4px; }
 QTabBar::tab { background: transparent; color: @text_secondary@; border: none; border-bottom: 3px solid transparent; padding: 0 16px;
   min-height: 37px; }

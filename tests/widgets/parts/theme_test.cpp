@@ -6,7 +6,9 @@
 #include <QApplication>
 #include <QFile>
 #include <QFontMetricsF>
+#include <QLineEdit>
 #include <QPushButton>
+#include <QToolButton>
 #include <cmath>
 #include <memory>
 
@@ -111,6 +113,20 @@ TEST(ColourMap, TicksAreFiveToSevenRoundNumbers) {
     EXPECT_NE(std::find(ticks.begin(), ticks.end(), 0.0), ticks.end()) << largest;
   }
   EXPECT_EQ(tickText(-2.5, 2.5), QString(QChar(0x2212)) + QStringLiteral("2.5"));
+}
+
+/// The button that clears a field is as small as the field: the rule for buttons of tool bars once made it stick out.
+TEST(Theme, TheButtonThatClearsAFieldLiesInItsMiddle) {
+  applyTheme(*qApp, ThemeKind::Light);
+  QLineEdit field;
+  field.setClearButtonEnabled(true);
+  field.setText(QStringLiteral("text"));
+  field.show();
+  QCoreApplication::processEvents();
+  const auto* button = field.findChild<QToolButton*>();
+  ASSERT_NE(button, nullptr);
+  EXPECT_TRUE(field.rect().contains(button->geometry()));
+  EXPECT_NEAR(button->geometry().center().y(), field.rect().center().y(), 2);
 }
 
 }  // namespace
