@@ -327,9 +327,10 @@ DiscrepancyResult findDiscrepancy(const DiscrepancyInput& input, const Discrepan
   result.warnings = answer.warnings;
   result.unmatched = rows.unmatched;
   result.sensors = analysis.drivers->sensors();
-  result.clock_offset_s = answer.log_clock_s + analysis.clock_offset_s;
+  result.clock_offset_s = answer.log_clock_s + analysis.clock_offset_s + analysis.simulation_clock_s;
   const bool found_far_off = answer.log_clock_s != input.log_clock_s;
-  result.clock_offset_uncertainty_s = std::hypot(answer.log_clock_uncertainty_s, analysis.clock_uncertainty_s);
+  result.clock_offset_uncertainty_s =
+      std::hypot(answer.log_clock_uncertainty_s, analysis.clock_uncertainty_s, analysis.simulation_clock_uncertainty_s);
   if (found_far_off) {
     result.warnings.push_back(
         fmt::format("What is named fits the log as if its clock were about {:.0f} min {} that of the observations, and "

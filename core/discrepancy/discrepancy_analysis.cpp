@@ -291,6 +291,8 @@ void analyse(Analysis& a, const DiscrepancyInput& input, ResidualProblem& proble
     std::vector<NuisanceColumn> nuisances = problem.simulationNuisances(
         exact ? 0.0 : std::max(input.simulation_gain_uncertainty, input.tangents ? 0.0 : parts_error));
     Eigen::VectorXd rate = clockRate(problem, parts);
+    a.clock_column.reset();
+    if (rate.cwiseAbs().maxCoeff() > 1e-12) a.clock_column = nuisances.size();
     if (rate.cwiseAbs().maxCoeff() > 1e-12) nuisances.push_back({std::move(rate), priors.clock_s, false});
     for (NuisanceColumn& column : a.hypotheses.nuisances(problem)) nuisances.push_back(std::move(column));
     return nuisances;
@@ -298,9 +300,14 @@ void analyse(Analysis& a, const DiscrepancyInput& input, ResidualProblem& proble
   problem.setNuisances(nuisancesOf(priors.simulation_error));
   problem.setNoise(estimateNoise(problem, problem.y - problem.nuisancePart(problem.y).values, false));
   parts = partsOfSimulation(problem, *a.drivers, a.catalogue, priors, job);
+  // What the simulation has it may have too much of: what is missing is then less than nothing of it.
+  for (Effect& effect : a.catalogue)
+    if (std::any_of(parts.begin(), parts.end(), [&](const SimulationPart& p) { return p.id == effect.id; }))
+      effect.sign = 0;
   problem.setNuisances(nuisancesOf(priors.simulation_error));
   weigh(a, input, problem, options, priors, exact, nullptr, job);
   if (exact || input.tangents || !(priors.rough_simulation_error > input.simulation_gain_uncertainty)) return;
+  a.rough_parts = parts;
   // An effect may be what a rough simulation leaves: a part that is somewhat too large or too small, not one missing.
   const auto sizes = [&] {
     Eigen::MatrixXd fitted(problem.size(), static_cast<Index>(a.posterior.fit.terms.size()));
@@ -346,6 +353,8 @@ void analyse(Analysis& a, const DiscrepancyInput& input, ResidualProblem& proble
     }
   }
   if (far != nullptr) {
+    // Weighed against roughness already.
+    std::erase_if(a.rough_parts, [&](const SimulationPart& part) { return part.id == far->id; });
     problem.setNuisances(nuisancesOf(priors.simulation_error));
     weigh(a, input, problem, options, priors, exact, &far->term, job);
     for (std::size_t t = 0; t < a.posterior.slots.size(); ++t)
@@ -369,18 +378,56 @@ void analyse(Analysis& a, const DiscrepancyInput& input, ResidualProblem& proble
   }
 }
 
-/// rms of the held-out displacements as a fit predicts them, um; NaN where there are too few to judge by.
-double heldOutRms(const DiscrepancyInput& input, const ComparableRows& rows, const ResidualProblem& problem,
-                  const Analysis& analysis, const JointFit& fit) {
+/// What the held-out displacements leave as a fit predicts them. A reading of a disturbed state is no fault of the fit:
+/// beyond some standard deviations of the noise as found it counts as those.
+HeldOutErrors heldOutErrors(const DiscrepancyInput& input, const ComparableRows& rows, const ResidualProblem& problem,
+                            const Analysis& analysis, const JointFit& fit) {
   constexpr std::size_t enough = 20;
-  if (rows.held_out.size() < enough) return std::nan("");
+  constexpr double far_out = 5.0;
+  HeldOutErrors out;
+  out.rms_um = std::nan("");
+  if (rows.held_out.size() < enough) return out;
   std::vector<double> part(input.predicted.size(), 0.0);
   for (const ModelEffect& effect : predictingEffects(*analysis.search, problem, *analysis.drivers, fit)) {
     const std::vector<double> one = EffectModel::contribution(*analysis.drivers, effect, input.observations.rows);
     for (std::size_t r = 0; r < part.size(); ++r) part[r] += one[r];
   }
-  const RowResult result = evaluateRows(input, rows.fit, rows.held_out, part);
-  return result.holdout_rows < enough ? std::nan("") : result.holdout_rms;
+  RowResult result = evaluateRows(input, rows.fit, rows.held_out, part);
+  if (result.holdout_rows < enough) return out;
+  out.left = std::move(result.left);
+  double squares = 0.0;
+  double count = 0.0;
+  for (const std::size_t row : rows.held_out) {
+    double& left = out.left[row];
+    if (!std::isfinite(left)) continue;
+    const Observation& o = input.observations.rows[row];
+    const ComponentNoise& noise = problem.noise.of(o.component);
+    const double most = far_out * std::hypot(o.sigma * noise.scale, noise.common);
+    left = std::clamp(left, -most, most);
+    squares += left * left;
+    count += 1.0;
+  }
+  out.rms_um = std::sqrt(squares / std::max(1.0, count));
+  return out;
+}
+
+/// The clock as the simulation shows it, beside what was found: taken as an error of the simulation whatever it is, and
+/// told where it is beyond doubt.
+void readSimulationClock(const ResidualProblem& problem, Analysis& a) {
+  constexpr double beyond_doubt = 4.0;  // standard deviations: other errors of the simulation move with it
+  constexpr double least_s = 60.0;
+  constexpr double of_the_rate = 0.15;  // minutes are much beside what follows within minutes: no straight line
+  if (!a.clock_column || a.clock_offset_s != 0.0) return;
+  const ResidualProblem::NuisancePart taken = problem.nuisancePart(problem.without(a.posterior.fit.contribution));
+  // Without the prior, which draws it to zero.
+  const double prior_s = problem.nuisances()[*a.clock_column].prior_sigma;
+  const double told = 1.0 - taken.variances[*a.clock_column] / (prior_s * prior_s);
+  if (!(told > 0.1)) return;
+  const double offset_s = taken.coefficients[*a.clock_column] / told;
+  const double sigma_s = std::sqrt(taken.variances[*a.clock_column] / told);
+  if (!(std::abs(offset_s) > std::max(least_s, beyond_doubt * sigma_s))) return;
+  a.simulation_clock_s = offset_s;
+  a.simulation_clock_uncertainty_s = std::hypot(sigma_s, of_the_rate * offset_s);
 }
 
 JudgedAnalysis withClock(const DiscrepancyInput& input, const DiscrepancyOptions& options,
@@ -407,10 +454,16 @@ JudgedAnalysis withClock(const DiscrepancyInput& input, const DiscrepancyOptions
   out.analysis = std::make_unique<Analysis>(std::move(drivers), std::move(catalogue),
                                             SimulatorHypotheses(input.tangents.get(), input.observations));
   analyse(*out.analysis, input, *out.problem, out.options, priors, job);
+  if (!input.tangents) readSimulationClock(*out.problem, *out.analysis);
   const Analysis& analysis = *out.analysis;
   out.warnings.insert(out.warnings.end(), analysis.notes.begin(), analysis.notes.end());
-  out.judged = judge(*out.problem, *analysis.search, analysis.posterior, analysis.remainder, priors, out.options,
-                     [&](const JointFit& fit) { return heldOutRms(input, out.rows, *out.problem, analysis, fit); });
+  out.judged = judge(*out.problem, *analysis.search, analysis.posterior, analysis.remainder, analysis.rough_parts,
+                     priors, out.options,
+                     {[&](const JointFit& fit) { return heldOutErrors(input, out.rows, *out.problem, analysis, fit); },
+                      [&](const HeldOutErrors& a, const HeldOutErrors& b) {
+                        if (a.left.empty() || b.left.empty()) return 0.5;
+                        return probabilityOfLeavingMore(input.observations.rows, out.rows.held_out, a.left, b.left);
+                      }});
   if (out.judged.noise) out.problem->setNoise(*out.judged.noise);
   out.warnings.insert(out.warnings.end(), out.judged.warnings.begin(), out.judged.warnings.end());
   return out;

@@ -12,6 +12,7 @@
 #include "core/discrepancy/effect_model.h"
 #include "core/discrepancy/effect_posterior.h"
 #include "core/discrepancy/judgement.h"
+#include "core/discrepancy/simulation_parts.h"
 #include "core/discrepancy/simulator_hypotheses.h"
 
 namespace spindrift {
@@ -32,7 +33,13 @@ struct Analysis {
   Remainder remainder;
   double clock_offset_s = 0.0;  ///< beyond that by which the drivers came
   double clock_uncertainty_s = 0.0;
-  double simulation_error = 0.0;  ///< of its parts, as estimated
+  /// Of the nuisances that which moves with the clock of the simulation, which is that of the log; nothing: none.
+  std::optional<std::size_t> clock_column;
+  /// Where no effect shows the clock: as the simulation shows it, clock of the log minus that of the observations.
+  double simulation_clock_s = 0.0;
+  double simulation_clock_uncertainty_s = 0.0;
+  double simulation_error = 0.0;            ///< of its parts, as estimated
+  std::vector<SimulationPart> rough_parts;  ///< parts of the simulation that may be off by more than is stated
   std::vector<std::string> notes;
 };
 

@@ -32,9 +32,15 @@ constexpr double unknown_price = 4.6;
 constexpr double further_price = 20.0;
 /// rms of what is held out with an effect over that without it, from which on it is taken back.
 constexpr double worse_held_out = 1.04;
+/// And how sure that has to be, over the held-out states.
+constexpr double surely_worse = 0.95;
 /// In evidence: what is there without doubt is told, even where its course cannot be foretold; but not where all names
 /// together make the gap on what is held out larger.
 constexpr double beyond_held_out = 200.0;
+/// Bodies make the pattern of an effect uneven by a part of its amplitude that nobody would take for another cause.
+constexpr double uneven_bodies = 0.75;
+/// In evidence: a part of the simulation that is off explains what an effect explains, all but this.
+constexpr double instead_as_well = 6.0;
 /// Of a course or a pattern another may leave this part of its power and is still the same to the eye of the data.
 constexpr double alike = 0.03;
 /// Rivals beside the effect; more is no answer.
@@ -142,6 +148,111 @@ double imitationRatio(const ResidualProblem& problem, const EffectSearch& search
   // Effects that cancel each other follow much that they do not cause: about their means, or since the log began.
   const double cancelling = 0.1 * std::sqrt(std::max(own_power / together_power, own_since / together_since));
   return std::hypot(strict * std::sqrt(left / power), cancelling > 0.2 ? cancelling : 0.0);
+}
+
+/// A part of the simulation in place of an effect.
+struct PartInstead {
+  std::string id;
+  double missing = 0.0;  ///< of the part, as a part of it
+  double uncertainty = 0.0;
+  double evidence = 0.0;  ///< gain in 2 ln of the evidence
+  bool possible = false;  ///< no more than a rough simulation may be off by
+};
+
+PartInstead partInstead(const ResidualProblem& problem, const SimulationPart& part, const Eigen::VectorXd& left,
+                        const DiscrepancyPriors& priors) {
+  const Eigen::VectorXd x = problem.projected(part.values).col(0);
+  const double square = x.squaredNorm();
+  const double s = priors.rough_simulation_error;
+  PartInstead out;
+  out.id = part.id;
+  out.missing = x.dot(left) / (square + 1.0 / (s * s));
+  out.evidence = out.missing * x.dot(left) - std::log1p(s * s * square);
+  // As the data say without the prior, of what there should be.
+  const double whole = square > 0.0 ? x.dot(left) / square : 0.0;
+  out.possible = whole > -1.0 && std::abs(whole / (1.0 + whole)) <= priors.rough_simulation_limit * s;
+  const double needed = std::max(0.1, 1.0 + out.missing);
+  out.uncertainty = 1.0 / std::sqrt(square + 1.0 / (s * s)) / (needed * needed);
+  out.missing /= needed;
+  return out;
+}
+
+/// How much of an effect that the log drives another pattern over the points needs that has the same course in time, as
+/// a part of its own amplitude: a gain of its own for every series beside the effect, less what as many free gains
+/// take of noise. 0 where that is no more than chance. Bodies are a little uneven; a cause outside the catalogue has
+/// a pattern of its own.
+double otherPattern(const ResidualProblem& problem, const JointFit& fit, std::size_t t) {
+  constexpr int most_series = 90;
+  constexpr double beyond_chance = 4.0;  // standard deviations of chi-squared
+  const Effect& effect = *fit.terms[t].effect;
+  if (effect.own || !drivenByLog(fit.terms[t]) || problem.seriesCount() > most_series) return 0.0;
+  const Eigen::VectorXd& moved = fit.contribution[t];
+  const double largest = moved.cwiseAbs().maxCoeff();
+  if (!(largest > 0.0)) return 0.0;
+  // The course in each component that the effect moves: a mean over the series, each as far as it follows the largest.
+  std::vector<Eigen::VectorXd> columns;
+  for (const Component c : all_components) {
+    std::vector<int> members;
+    int main = -1;
+    double main_size = 0.0;
+    const auto ofSeries = [&](int s) {
+      const Index from = problem.series_begin[static_cast<std::size_t>(s)];
+      return moved.segment(from, problem.series_begin[static_cast<std::size_t>(s) + 1] - from);
+    };
+    for (int s = 0; s < problem.seriesCount(); ++s) {
+      const Index from = problem.series_begin[static_cast<std::size_t>(s)];
+      if (ofSeries(s).size() == 0 || problem.component[static_cast<std::size_t>(from)] != c) continue;
+      members.push_back(s);
+      if (const double size = ofSeries(s).cwiseAbs().maxCoeff(); size > main_size) {
+        main_size = size;
+        main = s;
+      }
+    }
+    if (members.size() < 4 || main < 0 || main_size < 0.1 * largest) continue;
+    std::vector<double> at_main(static_cast<std::size_t>(problem.epoch_count), 0.0);
+    const Index main_from = problem.series_begin[static_cast<std::size_t>(main)];
+    for (Index i = 0; i < ofSeries(main).size(); ++i)
+      at_main[static_cast<std::size_t>(problem.epoch[static_cast<std::size_t>(main_from + i)])] = ofSeries(main)[i];
+    std::vector<double> sum(at_main.size(), 0.0);
+    std::vector<double> weight(at_main.size(), 0.0);
+    for (const int s : members) {
+      const Index from = problem.series_begin[static_cast<std::size_t>(s)];
+      double both = 0.0;
+      double square = 0.0;
+      for (Index i = 0; i < ofSeries(s).size(); ++i) {
+        const double m = at_main[static_cast<std::size_t>(problem.epoch[static_cast<std::size_t>(from + i)])];
+        both += m * ofSeries(s)[i];
+        square += m * m;
+      }
+      const double share = square > 0.0 ? both / square : 0.0;
+      for (Index i = 0; i < ofSeries(s).size(); ++i) {
+        const auto e = static_cast<std::size_t>(problem.epoch[static_cast<std::size_t>(from + i)]);
+        sum[e] += share * ofSeries(s)[i];
+        weight[e] += share * share;
+      }
+    }
+    for (const int s : members) {
+      Eigen::VectorXd column = Eigen::VectorXd::Zero(problem.size());
+      const Index from = problem.series_begin[static_cast<std::size_t>(s)];
+      for (Index i = 0; i < ofSeries(s).size(); ++i) {
+        const auto e = static_cast<std::size_t>(problem.epoch[static_cast<std::size_t>(from + i)]);
+        column[from + i] = weight[e] > 0.0 ? sum[e] / weight[e] : 0.0;
+      }
+      columns.push_back(std::move(column));
+    }
+  }
+  if (columns.empty()) return 0.0;
+  Eigen::MatrixXd x(problem.size(), static_cast<Index>(columns.size()));
+  for (Index k = 0; k < x.cols(); ++k) x.col(k) = columns[static_cast<std::size_t>(k)];
+  const Eigen::MatrixXd white = problem.projected(x);
+  const Eigen::VectorXd left = problem.projected(problem.without(fit.contribution)).col(0);
+  const Eigen::VectorXd own = problem.projected(moved).col(0);
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(white);
+  const double taken = (white * qr.solve(left)).squaredNorm();
+  const auto freedom = static_cast<double>(std::max<Index>(1, qr.rank() - 1));
+  const double excess = taken - freedom;
+  if (excess < beyond_chance * std::sqrt(2.0 * freedom)) return 0.0;
+  return std::sqrt(excess / std::max(1e-9, own.squaredNorm()));
 }
 
 /// True if the log lacks what drives an effect at all times and has only temperatures of other places in its stead:
@@ -381,8 +492,8 @@ std::string patternInScatter(const ResidualProblem& problem, const JointFit& fit
 }  // namespace
 
 Judgement judge(const ResidualProblem& problem, const EffectSearch& search, const EffectPosterior& posterior,
-                const Remainder& remainder, const DiscrepancyPriors& priors, const DiscrepancyOptions& options,
-                const HeldOutRms& held_out) {
+                const Remainder& remainder, const std::vector<SimulationPart>& parts, const DiscrepancyPriors& priors,
+                const DiscrepancyOptions& options, const HeldOutCheck& held_out) {
   Judgement out;
   const JointFit& fit = posterior.fit;
   std::vector<ModelTerm> terms;
@@ -392,12 +503,14 @@ Judgement judge(const ResidualProblem& problem, const EffectSearch& search, cons
   std::vector<bool> imitates(fit.terms.size(), false);
   std::vector<double> ratios(fit.terms.size(), 0.0);
   std::vector<double> claim(fit.terms.size(), 0.0);
+  std::vector<double> patterns;
+  for (std::size_t t = 0; t < fit.terms.size(); ++t) patterns.push_back(otherPattern(problem, fit, t));
   for (std::size_t round = 0; round <= fit.terms.size(); ++round) {
     std::size_t weakest = fit.terms.size();
     for (std::size_t t = 0; t < fit.terms.size(); ++t) {
       if (imitates[t]) continue;
       const SlotEvidence& slot = posterior.slots[t];
-      ratios[t] = imitationRatio(problem, search, fit, t, remainder, imitates);
+      ratios[t] = std::max(uneven_bodies * patterns[t], imitationRatio(problem, search, fit, t, remainder, imitates));
       // What smooth courses in simple patterns cannot take up, whatever their size, imitates nothing that drifts.
       const bool beyond_drifts = fit.terms[t].effect->own && slot.over_unknown > remainder_evidence;
       const double known = 1.0 / (1.0 + std::pow(ratios[t] / (beyond_drifts ? 1.0 : priors.imitation), 4));
@@ -524,6 +637,11 @@ Judgement judge(const ResidualProblem& problem, const EffectSearch& search, cons
     }
   }
   out.named = terms.size() == fit.terms.size() ? fit : search.solve(terms);
+  // Something is there, though what it was taken for does not foretell it, or has not its pattern: that is no noise.
+  bool is_there = false;
+  for (std::size_t t = 0; t < fit.terms.size(); ++t)
+    is_there = is_there || (imitates[t] && uneven_bodies * patterns[t] > priors.imitation &&
+                            posterior.slots[t].over_noise > remainder_evidence);
   const auto takeBack = [&](std::size_t k, const std::string& why) {
     unnamed.push_back(out.names[k].id);
     for (DiscrepancyStep& step : out.steps) {
@@ -554,13 +672,42 @@ Judgement judge(const ResidualProblem& problem, const EffectSearch& search, cons
     if (worst == terms.size()) break;
     takeBack(worst, "without the effects that cannot be named it breaks its sign or its bounds");
   }
-  // What predicts the held-out states worse than the others do without it.
-  const double of_none = held_out(search.solve({}));
+  // A weak one that may as well be a part of the simulation that is off by no more than a rough simulation may be.
+  for (std::size_t k = out.names.size(); k-- > 0;) {
+    if (out.names[k].forced || parts.empty()) continue;
+    std::vector<ModelTerm> others = terms;
+    others.erase(others.begin() + static_cast<std::ptrdiff_t>(k));
+    const Eigen::VectorXd left = problem.projected(problem.without(search.solve(others).contribution)).col(0);
+    const PartInstead* best = nullptr;
+    std::vector<PartInstead> all;
+    for (const SimulationPart& part : parts) all.push_back(partInstead(problem, part, left, priors));
+    for (const PartInstead& p : all)
+      if (p.possible && (best == nullptr || p.evidence > best->evidence)) best = &p;
+    if (best == nullptr || !(best->evidence > 0.0)) continue;
+    // Of the same cause the larger error is the answer where the data prefer it.
+    const double margin = best->id == out.names[k].id ? 0.0 : instead_as_well;
+    if (best->evidence + margin < out.names[k].delta_evidence) continue;
+    out.warnings.push_back(
+        fmt::format("The simulation has {:.0f} ± {:.0f} % too {} of {}: no more than a rough simulation may be off by, "
+                    "so it is taken "
+                    "as its error and not for {}.",
+                    100.0 * std::abs(best->missing), std::max(1.0, 100.0 * best->uncertainty),
+                    best->missing < 0.0 ? "much" : "little", best->id, out.names[k].id));
+    takeBack(k, fmt::format("{} of the simulation, off by {:.0f} %, would explain it as well", best->id,
+                            100.0 * std::abs(best->missing)));
+    unnamed.pop_back();
+  }
+  // What predicts the held-out states worse than the others do without it, more than a few states with shifts of their
+  // own do by chance.
+  const HeldOutErrors of_none = held_out.errors(search.solve({}));
+  const auto worse = [&](const HeldOutErrors& with, const HeldOutErrors& without, double surely) {
+    return with.rms_um > worse_held_out * without.rms_um && held_out.leaves_more(with, without) > surely;
+  };
   while (!terms.empty()) {
-    const double with = held_out(out.named);
-    const bool enlarges = with > worse_held_out * of_none;
+    const HeldOutErrors with = held_out.errors(out.named);
+    const bool enlarges = worse(with, of_none, surely_worse);
     std::size_t worst = terms.size();
-    double least = with / worse_held_out;
+    double least = with.rms_um;
     for (std::size_t k = 0; k < terms.size(); ++k) {
       // What has moved stays where it is: no reason to foretell it badly. What stands in for a driver is believed as
       // far as it foretells.
@@ -569,18 +716,21 @@ Judgement judge(const ResidualProblem& problem, const EffectSearch& search, cons
       if (out.names[k].forced || (!enlarges && beyond)) continue;
       std::vector<ModelTerm> others = terms;
       others.erase(others.begin() + static_cast<std::ptrdiff_t>(k));
-      const double without = held_out(search.solve(others));
-      if (!(without < least)) continue;
-      least = without;
+      const HeldOutErrors without = held_out.errors(search.solve(others));
+      // What the log drives may be foretold badly by chance; what has found its own begin has to be seen after it.
+      const double surely = drivenByLog(terms[k]) ? surely_worse : 0.5;
+      if (!(without.rms_um < least) || !worse(with, without, surely)) continue;
+      least = without.rms_um;
       worst = k;
     }
     if (worst == terms.size()) break;
+    is_there = is_there || out.names[worst].delta_evidence > remainder_evidence;
     takeBack(worst, fmt::format("with it the held-out states are predicted worse ({:.2f} µm rms, without it {:.2f})",
-                                with, least));
+                                with.rms_um, least));
   }
   ambiguous = std::any_of(out.names.begin(), out.names.end(), [](const NamedEffect& n) { return !n.rivals.empty(); });
   std::string left = describedRemainder(problem, problem.noise, fit, remainder);
-  if (!unnamed.empty()) {
+  if (!unnamed.empty() && !is_there) {
     std::optional<NoiseModel> noise = explainingNoise(problem, fit, out.named);
     if (noise) {
       unnamed.clear();

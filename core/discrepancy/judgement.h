@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "core/discrepancy/effect_posterior.h"
+#include "core/discrepancy/simulation_parts.h"
 
 namespace spindrift {
 
@@ -44,13 +45,23 @@ struct Judgement {
   std::optional<NoiseModel> noise;
 };
 
-/// rms of the readings that were held out under a fit, um; NaN where there are too few.
-using HeldOutRms = std::function<double(const JointFit&)>;
+/// What a fit leaves of the readings that were held out; readings far out count as some standard deviations.
+struct HeldOutErrors {
+  double rms_um = 0.0;       ///< NaN where there are too few
+  std::vector<double> left;  ///< per row of the observations, um or urad; NaN where a row does not count
+};
+struct HeldOutCheck {
+  std::function<HeldOutErrors(const JointFit&)> errors;
+  /// How sure it is that the first leaves more than the second (probabilityOfLeavingMore).
+  std::function<double(const HeldOutErrors&, const HeldOutErrors&)> leaves_more;
+};
 
-/// A name that makes the prediction of what was held out worse is taken back: `held_out` may only refuse.
+/// A name that makes the prediction of what was held out worse, beyond what chance does, is taken back: `held_out` may
+/// only refuse. `parts`: of the simulation, as far as it may be rough; a weak name that one of them explains as well is
+/// taken for its error.
 [[nodiscard]] Judgement judge(const ResidualProblem& problem, const EffectSearch& search,
                               const EffectPosterior& posterior, const Remainder& remainder,
-                              const DiscrepancyPriors& priors, const DiscrepancyOptions& options,
-                              const HeldOutRms& held_out);
+                              const std::vector<SimulationPart>& parts, const DiscrepancyPriors& priors,
+                              const DiscrepancyOptions& options, const HeldOutCheck& held_out);
 
 }  // namespace spindrift
