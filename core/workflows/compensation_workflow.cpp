@@ -196,9 +196,70 @@ PreparedModel prepareNineParameters(const ObservationSet& observations, const Co
   return out;
 }
 
-void addMeasuredRows(const DiscrepancyRun& run, CompensationPlan& plan, DeviationQuery& conditions) {
+/// What every series (point and component) is compared with: its own readings in the first state that it was measured
+/// in, less what the completed model says of them. The constant that a fit finds for a series is no such reference: it
+/// takes up whatever the model lacks, and what a fit could not describe would count as compensated.
+class FirstReadings {
+ public:
+  explicit FirstReadings(const DiscrepancyRun& run) : run_(run) {
+    if (run.input.absolute) return;
+    const auto& rows = run.input.observations.rows;
+    for (std::size_t r = 0; r < rows.size(); ++r) {
+      if (!comparable(r)) continue;
+      Series& s = series_.try_emplace({rows[r].point, rows[r].component}).first->second;
+      if (s.count == 0.0) s.state = rows[r].state;
+      if (rows[r].state != s.state) continue;
+      s.count += 1.0;
+      s.sum_um += rows[r].value - run.result.completed[r];
+      s.variance_sum += std::pow(sigma(r), 2);
+    }
+  }
+  [[nodiscard]] bool comparable(std::size_t r) const {
+    const Observation& o = run_.input.observations.rows[r];
+    return o.use != ObservationUse::Exclude && !isRotation(o.component) && std::isfinite(run_.result.completed[r]) &&
+           std::isfinite(run_.result.constant[r]);
+  }
+  /// The deviation that was measured in a row since the start of the log.
+  [[nodiscard]] double measured(std::size_t r) const {
+    const Series* s = reference(r);
+    return run_.input.observations.rows[r].value - (s != nullptr ? s->sum_um / s->count : run_.result.constant[r]);
+  }
+  [[nodiscard]] double referenceVariance(std::size_t r) const {
+    const Series* s = reference(r);
+    return s != nullptr ? s->variance_sum / (s->count * s->count) : 0.0;
+  }
+  /// Of one reading: a shift of its state is noise only where nothing else remains that may be in it.
+  [[nodiscard]] double sigma(std::size_t r) const {
+    const Observation& o = run_.input.observations.rows[r];
+    const bool more_remains = std::any_of(run_.result.remainder.begin(), run_.result.remainder.end(),
+                                          [&](const ComponentRemainder& c) { return c.component == o.component; });
+    const NoiseEstimate* found = run_.result.noiseOf(o.component);
+    if (more_remains && found != nullptr) return o.sigma * found->scale;
+    return run_.result.readingSigma(o.component, o.sigma);
+  }
+
+ private:
+  struct Series {
+    std::string state;
+    double count = 0.0;
+    double sum_um = 0.0;
+    double variance_sum = 0.0;
+  };
+  /// Null in that first state itself, which would agree with itself exactly.
+  [[nodiscard]] const Series* reference(std::size_t r) const {
+    const Observation& o = run_.input.observations.rows[r];
+    const auto found = series_.find({o.point, o.component});
+    return found == series_.end() || found->second.state == o.state ? nullptr : &found->second;
+  }
+
+  const DiscrepancyRun& run_;
+  std::map<std::pair<std::string, Component>, Series> series_;
+};
+
+void addMeasuredRows(const DiscrepancyRun& run, const FirstReadings& first, CompensationPlan& plan,
+                     DeviationQuery& conditions) {
   struct Sum {
-    double count = 0.0, measured = 0.0, correction = 0.0, sigma = 0.0, model_sigma = 0.0;
+    double count = 0.0, measured = 0.0, correction = 0.0, sigma = 0.0, model_sigma = 0.0, reference_variance = 0.0;
   };
   std::map<std::string, std::size_t> index;
   std::vector<std::array<Sum, 3>> sums;
@@ -207,8 +268,7 @@ void addMeasuredRows(const DiscrepancyRun& run, CompensationPlan& plan, Deviatio
   double used = 0.0;
   for (std::size_t r = 0; r < rows.size(); ++r) {
     const Observation& o = rows[r];
-    if (o.state != plan.state || o.use == ObservationUse::Exclude || isRotation(o.component)) continue;
-    if (!std::isfinite(run.result.completed[r]) || !std::isfinite(run.result.constant[r])) continue;
+    if (o.state != plan.state || !first.comparable(r)) continue;
     const auto [at, fresh] = index.try_emplace(o.point, plan.points.size());
     if (fresh) {
       plan.points.emplace_back();
@@ -219,8 +279,9 @@ void addMeasuredRows(const DiscrepancyRun& run, CompensationPlan& plan, Deviatio
     plan.points[at->second].used = o.use == ObservationUse::Fit;
     Sum& s = sums[at->second][static_cast<std::size_t>(axisIndex(o.component))];
     s.count += 1.0;
-    s.measured += o.value - run.result.constant[r];
-    s.sigma += std::pow(run.result.readingSigma(o.component, o.sigma), 2);
+    s.measured += first.measured(r);
+    s.sigma += std::pow(first.sigma(r), 2);
+    s.reference_variance = first.referenceVariance(r);
     s.correction -= run.result.completed[r];
     s.model_sigma += std::hypot(run.result.model->predict(DeviationQuery::of(o), o.component).sigma,
                                 run.input.simulation_gain_uncertainty * run.input.predicted[r]);
@@ -240,11 +301,34 @@ void addMeasuredRows(const DiscrepancyRun& run, CompensationPlan& plan, Deviatio
         continue;
       }
       p.measured_um[i] = s.measured / s.count;
-      p.measured_sigma_um[i] = std::sqrt(s.sigma) / s.count;
+      p.measured_sigma_um[i] = std::sqrt(s.sigma / (s.count * s.count) + s.reference_variance);
       p.correction_um[static_cast<Eigen::Index>(i)] = 0.0 + s.correction / s.count;
       p.sigma_um[static_cast<Eigen::Index>(i)] = s.model_sigma / s.count;
     }
   }
+}
+
+/// What remains on readings held out: of this state, or of all states where nothing of this one was.
+void addHeldOut(const DiscrepancyRun& run, const FirstReadings& first, CompensationPlan& plan) {
+  const auto& rows = run.input.observations.rows;
+  const auto held_out = [&](std::size_t r) { return rows[r].use == ObservationUse::Holdout && first.comparable(r); };
+  const auto judge = [&](bool this_state_alone) {
+    double before = 0.0, after = 0.0, count = 0.0;
+    for (std::size_t r = 0; r < rows.size(); ++r) {
+      if (!held_out(r) || (this_state_alone && rows[r].state != plan.state)) continue;
+      const double measured_um = first.measured(r);
+      before += measured_um * measured_um;
+      after += std::pow(measured_um - run.result.completed[r], 2);
+      count += 1.0;
+    }
+    if (count == 0.0) return false;
+    plan.rms_before_unseen_um = std::sqrt(before / count);
+    plan.rms_after_unseen_um = std::sqrt(after / count);
+    plan.unseen = this_state_alone ? "at the points held out" : "readings held out in other states";
+    return true;
+  };
+  if (!judge(true) && !judge(false))
+    plan.unseen = "nothing was held out: how the correction does elsewhere is not known";
 }
 
 /// What remains at the points beyond the uncertainty of the readings, per component (of all where one has few values);
@@ -291,7 +375,9 @@ PreparedModel prepareCompleted(const Campaign& campaign, const ObservationSet& o
   plan.model = fmt::format("Simulation completed by {}", joinedList(names));
   PreparedModel out;
   out.conditions.state = plan.state;
-  addMeasuredRows(run, plan, out.conditions);
+  const FirstReadings first(run);
+  addMeasuredRows(run, first, plan, out.conditions);
+  addHeldOut(run, first, plan);
   plan.lack_of_fit_um = lackAtPoints(plan.points);
   for (CompensationPoint& p : plan.points) {
     p.sigma_um = (p.sigma_um.array().square() + plan.lack_of_fit_um.array().square()).sqrt();
@@ -523,24 +609,6 @@ void addNumbers(CompensationPlan& plan) {
   }
 }
 
-/// Of the points whose values of this state were held out.
-void addHeldOut(CompensationPlan& plan) {
-  double before = 0.0, after = 0.0, count = 0.0;
-  for (const CompensationPoint& p : plan.points) {
-    for (std::size_t i = 0; i < 3 && !p.used; ++i) {
-      if (!p.measured_um[i]) continue;
-      before += *p.measured_um[i] * *p.measured_um[i];
-      after += *p.remains_um[i] * *p.remains_um[i];
-      count += 1.0;
-    }
-  }
-  plan.unseen = count > 0.0 ? "at the points held out"
-                            : "nothing of this state was held out: how the correction does elsewhere is not known";
-  if (count == 0.0) return;
-  plan.rms_before_unseen_um = std::sqrt(before / count);
-  plan.rms_after_unseen_um = std::sqrt(after / count);
-}
-
 }  // namespace
 
 std::string_view toString(CompensationSource source) noexcept {
@@ -645,7 +713,6 @@ CompensationPlan planCompensation(const Campaign& campaign, const ObservationSet
                                      ? prepareCompleted(campaign, observations, request, plan, fitting)
                                      : prepareNineParameters(observations, request, plan);
   addNumbers(plan);
-  if (request.source == CompensationSource::CompletedModel) addHeldOut(plan);
   if (std::string why = plan.harm(); !why.empty()) plan.warnings.insert(plan.warnings.begin(), std::move(why));
   job.throwIfCancelled();
   job.report(0.7, "writing the tables");

@@ -46,7 +46,7 @@ struct CompensationRequest {
 struct CompensationPoint {
   std::string point;
   Eigen::Vector3d position_mm = Eigen::Vector3d::Zero();
-  std::array<std::optional<double>, 3> measured_um;  ///< deviation before, about the constant of its series
+  std::array<std::optional<double>, 3> measured_um;  ///< deviation before, since `CompensationPlan::reference`
   std::array<double, 3> measured_sigma_um{};
   Eigen::Vector3d correction_um = Eigen::Vector3d::Zero();  ///< to add to the command
   Eigen::Vector3d sigma_um = Eigen::Vector3d::Zero();       ///< of the correction: expected error that remains

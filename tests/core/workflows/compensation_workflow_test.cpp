@@ -260,8 +260,9 @@ TEST(CompensationPlan, WhatScattersAboutOneHeightIsNoExtentAlongZ) {
   }
 }
 
-/// Growth of the spindle in Z at four points, which the simulation lacks; X and Y were not measured.
-Campaign heightsOnly(const testing::TempFolder& folder) {
+/// Growth of the spindle in Z at four points, which the simulation lacks; X and Y were not measured. `jump_um`: so much
+/// more in two states, which nothing in the log explains.
+Campaign heightsOnly(const testing::TempFolder& folder, double jump_um = 0.0) {
   Campaign campaign = campaignOf(0.0, false, 6);
   std::vector<double> time_s, rpm;
   for (int k = 0; k <= 600; ++k) {
@@ -286,7 +287,7 @@ Campaign heightsOnly(const testing::TempFolder& folder) {
       o.position_mm = {20.0 + 200.0 * (i % 2), 15.0 + 80.0 * (i / 2), 50.0 * i};
       o.component = Component::EZ;
       o.sigma = 0.3;
-      o.value = grown + random.normal(0, 0.3);
+      o.value = grown + (state == 10 || state == 11 ? jump_um : 0.0) + random.normal(0, 0.3);
       simulated += fmt::format("{},{},EZ,0\n", t, o.point);
       set.rows.push_back(o);
     }
@@ -296,6 +297,37 @@ Campaign heightsOnly(const testing::TempFolder& folder) {
   campaign.folder = folder.path();
   campaign.simulation = "simulation.csv";
   return campaign;
+}
+
+/// The constants of the series take up half of what the model lacks, and what remains would look half as large as it
+/// is.
+TEST(CompensationPlan, WhatTheAddedEffectsDoNotDescribeIsInTheUncertainty) {
+  CompensationRequest request;
+  request.source = CompensationSource::CompletedModel;
+  request.added = {"spindle.growth.z"};
+  request.state = "M10";
+  request.positions = 3;
+  JobContext job;
+  const testing::TempFolder whole_folder, lacking_folder;
+  const Campaign whole = heightsOnly(whole_folder);
+  const CompensationPlan right = planCompensation(whole, *whole.observations, request, job);
+  EXPECT_LT(right.rms_after_um, 0.8);
+  EXPECT_LT(right.rms_sigma_um, 0.8);
+  const Campaign lacking = heightsOnly(lacking_folder, -6.0);
+  const CompensationPlan wrong = planCompensation(lacking, *lacking.observations, request, job);
+  for (const CompensationPoint& p : wrong.points) {
+    double change = 0.0;
+    for (const Observation& o : lacking.observations->rows) {
+      if (o.point != p.point) continue;
+      if (o.state == "M10") change += o.value;
+      if (o.state == "M0") change -= o.value;
+    }
+    ASSERT_TRUE(p.measured_um[2]);
+    EXPECT_NEAR(*p.measured_um[2], change, 1.5) << p.point << " since the first state, not about a constant";
+  }
+  EXPECT_GT(wrong.rms_after_um, 1.5);
+  EXPECT_GT(wrong.rms_sigma_um, 0.7 * wrong.rms_after_um);
+  EXPECT_GT(wrong.lack_of_fit_um.z(), 1.0);
 }
 
 TEST(CompensationPlan, StatesNothingOfADisplacementThatWasNotMeasured) {
