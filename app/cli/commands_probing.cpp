@@ -334,9 +334,10 @@ void addStudies(CLI::App& app, CommandLine& line) {
               c.judged > 0 ? fmt::format("{:.0f} % of {}", 100.0 * c.within_two_sigma, countOf(c.judged, "cycle"))
                            : std::string("no cycle"),
               printed(c.correlation));
-          result.summary += fmt::format("slope {}, offset {}: {}\n", withUncertainty(c.slope, c.slope_sigma, ""),
-                                        withUncertainty(c.offset, c.offset_sigma, parameter.unit), c.verdict);
-          if (c.differs) result.exit_status = NotGoodEnough;
+          result.summary +=
+              fmt::format("slope {}, mean difference {}: {}\n", withUncertainty(c.slope, c.slope_sigma, ""),
+                          withUncertainty(c.offset, c.offset_sigma, parameter.unit), c.verdict);
+          if (!c.agrees) result.exit_status = NotGoodEnough;
         }
         return result;
       });

@@ -3,6 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "core/base/json_reader.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
@@ -48,10 +51,32 @@ namespace {
 /// Empty: there is none.
 std::string temperatureColumn(const Artefact& artefact, const OperatingLog* log) {
   if (log != nullptr && !log->empty()) {
-    for (const std::string& name : {fmt::format("T_{}_degC", artefact.id), std::string("T_artefact_degC")})
-      if (log->has(name)) return name;
+    for (const std::string& name : {fmt::format("T_{}_degC", artefact.id), std::string("T_artefact_degC")}) {
+      const std::vector<double>* values = log->signal(name);
+      if (values != nullptr && std::any_of(values->begin(), values->end(), [](double v) { return std::isfinite(v); }))
+        return name;
+    }
   }
   return {};
+}
+
+/// What the log says, if it can be the temperature of an artefact in a workshop.
+double loggedTemperature(const std::string& column, const OperatingLog& log, double time_s) {
+  constexpr double least_degC = -20.0;  // as machine.json
+  constexpr double most_degC = 80.0;
+  constexpr double longest_hold_s = 1800.0;
+  const SourcePlace place{log.file(), fmt::format("column {}", column)};
+  const double beyond_s = std::max(log.time_s().front() - time_s, time_s - log.time_s().back());
+  if (beyond_s > longest_hold_s) {
+    throw InputError(place, fmt::format("the log runs from {:.6g} to {:.6g} s, but the artefact was touched at {:.6g} "
+                                        "s; allowed: a log of that time (a clock offset moves it).",
+                                        log.time_s().front(), log.time_s().back(), time_s));
+  }
+  const double value_degC = log.at(column, time_s);
+  if (value_degC >= least_degC && value_degC <= most_degC) return value_degC;
+  throw InputError(place, fmt::format("the temperature of the artefact is {:g} °C at {:.6g} s; allowed: {:g} to {:g} "
+                                      "°C (kelvin, degrees Fahrenheit, or the value of a broken sensor?).",
+                                      value_degC, time_s, least_degC, most_degC));
 }
 }  // namespace
 
@@ -61,7 +86,7 @@ bool temperatureIsLogged(const Artefact& artefact, const OperatingLog* log) {
 
 std::optional<double> artefactTemperature(const Artefact& artefact, const OperatingLog* log, double time_s) {
   const std::string column = temperatureColumn(artefact, log);
-  return column.empty() ? artefact.temperature_degC : log->at(column, time_s);
+  return column.empty() ? artefact.temperature_degC : loggedTemperature(column, *log, time_s);
 }
 
 ArtefactGrowth artefactGrowth(const ArtefactCertificate& certificate, const Artefact& artefact, const OperatingLog* log,

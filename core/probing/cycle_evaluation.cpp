@@ -436,7 +436,11 @@ class Assembler {
     }
     double freedom = 0.0;
     for (const double f : fit.group_degrees_of_freedom) freedom += f;
-    if (result_.cycles.size() >= 2 && freedom < 8.0) {
+    if (!assembly_.fit.sigma_mm && !(freedom > 0.5)) {
+      result_.warnings.push_back(fmt::format(
+          "No touch of {} checks another, so that nothing is known of the noise of a touch: {:g} µm is assumed.",
+          artefact_.id, CycleFitOptions::assumed_sigma_mm * um_per_mm));
+    } else if (result_.cycles.size() >= 2 && freedom < 8.0) {
       result_.warnings.push_back(fmt::format(
           "The touch noise rests on {:.0f} degrees of freedom only; the uncertainties are rough.", freedom));
     }

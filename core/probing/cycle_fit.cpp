@@ -156,7 +156,8 @@ class Solver {
  public:
   Solver(const CycleProblem& problem, const CycleFitOptions& options) : problem_(problem), options_(options) {
     used_.assign(problem.rows.size(), true);
-    sigma_.assign(static_cast<std::size_t>(problem.groups), options.sigma_mm.value_or(1e-3));
+    sigma_.assign(static_cast<std::size_t>(problem.groups),
+                  options.sigma_mm.value_or(CycleFitOptions::assumed_sigma_mm));
     // Columns are scaled alike in all cycles, so that "weak" means the same everywhere.
     scale_ = problem.jacobian.colwise().norm();
     for (const CyclePrior& prior : problem.priors) {
@@ -368,14 +369,13 @@ class Solver {
     for (std::size_t g = 0; g < groups; ++g) {
       // A group that hardly estimates its own noise borrows from all touches.
       const bool own = freedom_of_group_[g] >= 8.0;
-      double sigma = 0.0;
-      if (robust) {
-        const std::vector<double>& values = own ? scaled[g] : all_scaled;
-        sigma = values.empty() ? 0.0 : 1.4826 * median(values);
-      } else {
-        const double f = own ? freedom_of_group_[g] : all_freedom;
-        sigma = f > 0.5 ? std::sqrt((own ? squares[g] : all_squares) / f) : 0.0;
+      // Where no touch checks another, nothing is known of the noise, and what was assumed stands.
+      if (!(all_freedom > 0.5)) {
+        sigma_[g] = CycleFitOptions::assumed_sigma_mm;
+        continue;
       }
+      const double sigma = robust ? 1.4826 * median(own ? scaled[g] : all_scaled)
+                                  : std::sqrt(own ? squares[g] / freedom_of_group_[g] : all_squares / all_freedom);
       sigma_[g] = std::max(sigma, floor_mm);
     }
   }
@@ -466,7 +466,10 @@ class Solver {
       std::vector<std::string> open;
       const Eigen::MatrixXd through_constant = gain * constant_null_;
       for (Eigen::Index j = 0; j < n; ++j) {
-        const bool own = part.null.cols() == 0 || part.null.row(j).norm() < 1e-5;
+        // The open directions follow the touches, which lie some tens of micrometres from where they lay in the other
+        // cycles: of a parameter that is seen, 1e-4 of such a direction may be in one cycle and not in the next.
+        constexpr double seen = 1e-3;
+        const bool own = part.null.cols() == 0 || part.null.row(j).norm() < seen;
         const bool constant =
             constant_null_.cols() == 0 || through_constant.row(j).norm() < 1e-4 * unscale(j) / sigma_.front();
         if (own && constant) continue;

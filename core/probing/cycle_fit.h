@@ -49,6 +49,8 @@ struct CycleProblem {
 };
 
 struct CycleFitOptions {
+  /// Touch noise where no touch checks another: what a touch-trigger probe of a machine tool repeats to, mm.
+  static constexpr double assumed_sigma_mm = 1e-3;
   /// Touches with a larger studentised residual are left out. 0: none is.
   double outlier_threshold = 5.0;
   /// Touch noise if it is known, mm; else it is estimated.

@@ -140,7 +140,11 @@ void judgeReference(ReferenceComparison& comparison, const std::vector<double>& 
   const double deviation = std::abs(slope - 1.0);
   const bool course = comparison.line_rms > gain_tolerance * (high - low) &&
                       (!stated || squares > freedom + 4.0 * std::sqrt(2.0 * freedom));
-  if (deviation > gain_tolerance && deviation > 2.6 * comparison.slope_sigma) {
+  constexpr double telling_cycles = 4.0;
+  if (slope + 2.6 * comparison.slope_sigma < 0.0) {
+    comparison.differs = true;
+    comparison.verdict = "the sign differs: the probe shows less where the reference shows more";
+  } else if (deviation > gain_tolerance && deviation > 2.6 * comparison.slope_sigma) {
     comparison.differs = true;
     comparison.verdict =
         fmt::format("the gain differs: the probe shows {:.0f} % of what the reference shows", 100.0 * slope);
@@ -148,6 +152,10 @@ void judgeReference(ReferenceComparison& comparison, const std::vector<double>& 
     comparison.differs = true;
     comparison.verdict =
         fmt::format("the time histories differ: {:.3g} rms about a straight line", comparison.line_rms);
+  } else if (stated && static_cast<double>(comparison.judged) >= telling_cycles && comparison.within_two_sigma < 0.5) {
+    comparison.differs = true;
+    comparison.verdict = fmt::format("they differ beyond their uncertainty in {:.0f} % of the cycles",
+                                     100.0 * (1.0 - comparison.within_two_sigma));
   } else if (!(2.0 * comparison.slope_sigma <= 0.2)) {
     comparison.verdict = "the reference moves too little to compare the gain";
   } else {

@@ -5,6 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
 
 #include "core/base/count_text.h"
 #include "core/base/text.h"
@@ -15,6 +20,29 @@
 
 namespace spindrift {
 namespace {
+
+/// Cycles of an artefact whose touches lie exactly where those of an earlier one lie, with that. No probe repeats so.
+std::vector<std::pair<std::string, std::string>> copiedCycles(const TouchList& list, const std::string& artefact) {
+  constexpr std::size_t telling_touches = 6;
+  using Place = std::tuple<std::string, std::string, double, int, double, double, double>;
+  std::vector<std::pair<std::string, std::vector<Place>>> cycles;
+  for (const Touch& t : list.touches) {
+    if (t.artefact != artefact) continue;
+    auto at = std::find_if(cycles.begin(), cycles.end(), [&](const auto& c) { return c.first == t.cycle; });
+    if (at == cycles.end()) at = cycles.insert(at, {t.cycle, {}});
+    at->second.emplace_back(t.feature, t.stylus, t.c_deg, t.touch, t.position_mm.x(), t.position_mm.y(),
+                            t.position_mm.z());
+  }
+  std::vector<std::pair<std::string, std::string>> copied;
+  std::map<std::vector<Place>, std::string> seen;
+  for (auto& [cycle, places] : cycles) {
+    if (places.size() < telling_touches) continue;
+    std::sort(places.begin(), places.end());
+    const auto [first, fresh] = seen.try_emplace(std::move(places), cycle);
+    if (!fresh) copied.emplace_back(cycle, first->second);
+  }
+  return copied;
+}
 
 void addCommon(const CycleEvaluation& evaluation, const TouchEvaluation& all, const MachineDescription& machine,
                InstrumentEvaluation& out) {
@@ -30,13 +58,16 @@ void addCommon(const CycleEvaluation& evaluation, const TouchEvaluation& all, co
   out.details["artefacts"].push_back(std::move(cycles));
 
   std::string noise;
+  double freedom = 0.0;
   for (std::size_t g = 0; g < evaluation.fit.group_sigma_mm.size(); ++g) {
     noise += fmt::format("{}{:.3f} µm {}", g > 0 ? ", " : "", evaluation.fit.group_sigma_mm[g] * um_per_mm,
                          g == 0 ? "across" : "along the axis");
+    freedom += evaluation.fit.group_degrees_of_freedom[g];
   }
-  out.summary += fmt::format(
-      "{}: {}, {}, {} left out; touch noise {}\n", evaluation.artefact, countOf(evaluation.cycles.size(), "cycle"),
-      countOf(evaluation.problem.rows.size(), "touch", "touches"), evaluation.rejected.size(), noise);
+  out.summary += fmt::format("{}: {}, {}, {} left out; touch noise {}{}\n", evaluation.artefact,
+                             countOf(evaluation.cycles.size(), "cycle"),
+                             countOf(evaluation.problem.rows.size(), "touch", "touches"), evaluation.rejected.size(),
+                             noise, freedom > 0.5 ? "" : " (assumed)");
   const std::size_t all_touches = evaluation.problem.rows.size() + evaluation.rejected.size();
   if (2 * evaluation.rejected.size() > all_touches) {
     out.good_enough = false;
@@ -44,6 +75,13 @@ void addCommon(const CycleEvaluation& evaluation, const TouchEvaluation& all, co
         fmt::format("{} of {} touches of {} do not fit: the columns x_mm and y_mm swapped, approach vectors of the "
                     "wrong sign, or a diameter or stylus in machine.json that is not the one used?",
                     evaluation.rejected.size(), all_touches, evaluation.artefact));
+  }
+  for (const auto& [copy, original] : copiedCycles(all.touches, evaluation.artefact)) {
+    out.good_enough = false;
+    out.warnings.push_back(fmt::format(
+        "Cycle {} of {} holds the positions of cycle {} digit for digit: a copy is no second measurement; remove it or "
+        "measure again.",
+        copy, evaluation.artefact, original));
   }
   if (evaluation.cycles.size() < 2) {
     out.good_enough = false;

@@ -389,6 +389,59 @@ TEST(BallCycle, GrowthIsTakenOffAlongTheArtefactAsItStands) {
   EXPECT_TRUE(result.warnings.empty()) << result.warnings.front();
 }
 
+/// Kelvin, the value of a broken sensor, a log of another day: nothing is corrected by them.
+TEST(BallCycle, ATemperatureThatNoArtefactHasIsRefused) {
+  const MachineDescription m =
+      machineFrom(replaced(ballMachineText(), "\"certificate_uncertainty_um\":0.4",
+                           "\"certificate_uncertainty_um\":0.4,\"expansion_um_per_m_K\":11.5"));
+  const VirtualRun run = runCycles(m, 3, {}, 11);
+  const auto refusal = [&](const std::vector<double>& time_s, double value_degC) -> std::string {
+    OperatingLog log(time_s);
+    log.setSignal("T_balls_degC", std::vector<double>(time_s.size(), value_degC));
+    try {
+      (void)evaluateBallCycles(run.list, m, m.artefacts.front(), &log);
+    } catch (const InputError& e) {
+      return e.what();
+    }
+    return "taken";
+  };
+  const std::vector<double> whole{0.0, 3600.0};
+  EXPECT_EQ(refusal(whole, 21.0), "taken");
+  EXPECT_EQ(refusal({0.0, 100.0}, 21.0), "taken") << "held for a while";
+  for (const double wrong : {-999.0, 294.15, 94.0})
+    EXPECT_THAT(refusal(whole, wrong), ::testing::HasSubstr("allowed: -20 to 80")) << wrong;
+  EXPECT_THAT(refusal({-90000.0, -80000.0}, 21.0), ::testing::HasSubstr("the log runs from -90000 to -80000 s"));
+  EXPECT_EQ(refusal(whole, std::nan("")), "taken") << "an empty column is no temperature at all";
+}
+
+/// One cycle has nothing to compare with, and no touch checks another.
+TEST(BallCycle, NoiseThatNothingTellsIsNotTakenForNone) {
+  const MachineDescription m = machineFrom(ballMachineText());
+  const VirtualRun run = runCycles(m, 1, {}, 11);
+  const BallCycleResult result = evaluateBallCycles(run.list, m, m.artefacts.front(), nullptr);
+  for (const double sigma_mm : result.fit.group_sigma_mm) EXPECT_EQ(sigma_mm, CycleFitOptions::assumed_sigma_mm);
+  EXPECT_THAT(result.warnings, ::testing::Contains(::testing::HasSubstr("nothing is known of the noise of a touch")));
+}
+
+/// Touches lie some tens of micrometres from where they lay in the cycle before: what is seen is seen in all.
+TEST(BallCycle, WhatOneBallShowsIsTheSameInEveryCycle) {
+  const MachineDescription m = machineFrom(ballMachineText());
+  VirtualProbeOptions options;
+  options.noise_um = 0.3;
+  VirtualRun run = runCycles(m, 8, options, 5);
+  std::erase_if(run.list.touches, [&](const Touch& t) { return t.feature != run.list.touches.front().feature; });
+  const BallCycleResult result = evaluateBallCycles(run.list, m, m.artefacts.front(), nullptr);
+  ASSERT_GE(result.cycles.size(), 8U);
+  std::size_t seen = 0;
+  for (std::size_t p = 0; p < 12; ++p) {
+    for (std::size_t k = 2; k < result.cycles.size(); ++k)
+      EXPECT_EQ(result.parameters[k][p].determined, result.parameters[1][p].determined) << result.names[p] << k;
+    seen += result.parameters[1][p].determined ? 1U : 0U;
+  }
+  EXPECT_GT(seen, 0U);
+  EXPECT_LT(seen, 12U);
+}
+
 TEST(BallCycle, UncertaintyOfCoefficientAndTemperatureIsInEveryValue) {
   const MachineDescription m =
       machineFrom(replaced(ballMachineText(), "\"certificate_uncertainty_um\":0.4",
