@@ -6,15 +6,19 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <limits>
 #include <map>
 #include <memory>
 #include <mutex>
 #include <new>
 #include <numbers>
+#include <optional>
 
 #include "core/base/inside_folder.h"
 #include "core/base/json_reader.h"
+#include "core/base/sha256.h"
 #include "core/base/text.h"
 #include "core/base/unit_text.h"
 #include "core/base/units.h"
@@ -155,12 +159,38 @@ void ScanFrame::intoMachine(ScanResult& result) const {
   }
 }
 
+/// Which earlier capture a file is a copy of. Scans are of one size where the profiler gives a grid, so that the
+/// beginning decides; all of it is read only where that agrees.
+std::vector<std::optional<std::size_t>> copies(const Campaign& campaign, const std::vector<ScanCapture>& captures) {
+  std::vector<std::optional<std::size_t>> copy_of(captures.size());
+  std::map<std::pair<std::uintmax_t, std::string>, std::vector<std::size_t>> alike;
+  for (std::size_t i = 0; i < captures.size(); ++i) {
+    const std::filesystem::path file = campaign.path(captures[i].cloud);
+    std::error_code none;
+    const std::uintmax_t size = std::filesystem::file_size(file, none);
+    std::string beginning(65536, '\0');
+    std::ifstream stream(file, std::ios::binary);
+    if (none || !stream) continue;  // whoever reads it says why
+    stream.read(beginning.data(), static_cast<std::streamsize>(beginning.size()));
+    beginning.resize(static_cast<std::size_t>(stream.gcount()));
+    std::vector<std::size_t>& before = alike[{size, sha256(beginning)}];
+    for (const std::size_t b : before) {
+      if (sha256OfFile(campaign.path(captures[b].cloud)) != sha256OfFile(file)) continue;
+      copy_of[i] = b;
+      break;
+    }
+    if (!copy_of[i]) before.push_back(i);
+  }
+  return copy_of;
+}
+
 /// All scans of one artefact.
 class ArtefactEvaluator {
  public:
   ArtefactEvaluator(const Campaign& campaign, const ProfilerMounting& mounting, ScanModel model, int travel,
                     std::vector<ScanCapture> captures)
       : campaign_(campaign), mounting_(mounting), travel_(travel), captures_(std::move(captures)) {
+    copy_of_ = copies(campaign, captures_);
     options_.scan_model = model;
     options_.free_form = true;
     // Of many scans one shows by chance what is rare in one alone.
@@ -228,7 +258,16 @@ class ArtefactEvaluator {
       });
     }
     std::vector<std::size_t> rest;
-    for (std::size_t k = next; k < captures_.size(); ++k) rest.push_back(k);
+    for (std::size_t k = next; k < captures_.size(); ++k) {
+      const std::size_t at = (first + k) % captures_.size();
+      if (copy_of_[at]) {
+        outcomes[k].rejected = {captures_[at].cloud,
+                                fmt::format("{} holds the same bytes as {}: a copy is no second measurement.",
+                                            captures_[at].cloud, captures_[*copy_of_[at]].cloud)};
+        continue;
+      }
+      rest.push_back(k);
+    }
     RegistrationOptions options = options_;
     const auto one = [&](std::size_t i) {
       job.throwIfCancelled();
@@ -389,6 +428,7 @@ class ArtefactEvaluator {
   int travel_;
   bool parallel_ = false;
   std::vector<ScanCapture> captures_;
+  std::vector<std::optional<std::size_t>> copy_of_;  ///< an earlier capture whose file is the same
   RegistrationOptions options_;
   Extent reference_extent_;
   double reference_y_mm_ = 0.0;  ///< carriage position where the reference scan starts

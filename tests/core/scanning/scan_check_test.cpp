@@ -134,6 +134,21 @@ TEST(ScanPicture, ShowsTheChangeAndWhatRegistrationLeaves) {
             ScanColouring::Height);
 }
 
+/// It would be "exactly no error", and the surest of all rows.
+TEST(EvaluateScans, ACopyIsNoSecondMeasurement) {
+  const testing::TempFolder folder;
+  writeScans(folder / "c");
+  const auto cloud = [&](const char* name) { return folder / "c/captures/clouds" / name; };
+  std::filesystem::copy_file(cloud("A1_C0.pcd"), cloud("A1_C1.pcd"), std::filesystem::copy_options::overwrite_existing);
+  JobContext job;
+  const InstrumentEvaluation evaluation = evaluateScans(Campaign::read(folder / "c"), "", job);
+  ASSERT_EQ(evaluation.rejected.size(), 1U);
+  EXPECT_NE(evaluation.rejected.front().reason.find("holds the same bytes as captures/clouds/A1_C0.pcd"),
+            std::string::npos)
+      << evaluation.rejected.front().reason;
+  for (const Observation& o : evaluation.observations.rows) EXPECT_NE(o.state, "C1");
+}
+
 TEST(ScanCheck, ACloudThatTheMemoryCannotHoldCostsItselfAndNotTheRun) {
   const testing::TempFolder folder;
   writeScans(folder / "c");
