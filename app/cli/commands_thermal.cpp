@@ -196,7 +196,8 @@ void addCompensate(CLI::App& parent, CommandLine& line) {
                    for (const auto& o : result.outputs) worse = worse || o.worse();
                    std::string summary = result.summary();
                    if (worse) summary += "not good enough: an output is no better compensated than left alone\n";
-                   return CommandResult{result.json(), summary, worse ? NotGoodEnough : Done, result.warnings};
+                   const bool usable = !worse && !result.forced;
+                   return CommandResult{result.json(), summary, usable ? Done : NotGoodEnough, result.warnings};
                  });
   command
       ->add_option("LOG", a->log,

@@ -117,6 +117,8 @@ std::string Compensator::load(const ThermalModel& model, double cycle_s, const C
       const bool driven =
           input.kind == SignalKind::Speed || input.kind == SignalKind::Feed || input.kind == SignalKind::Switch;
       const double margin = std::max(limits.range_margin * range, driven ? 0.0 : limits.minimum_margin);
+      train_low_[source] = input.train_min;
+      train_high_[source] = input.train_max;
       low_[source] = input.train_min - margin;
       high_[source] = input.train_max + margin;
       if (!(std::isfinite(low_[source]) && std::isfinite(high_[source])))
@@ -190,7 +192,12 @@ void Compensator::reset() noexcept {
 }
 
 CompensatorStatus Compensator::status() const noexcept {
-  return {state_, refused_, refused_update_, forced_, broken_for_s_ > 0.0};
+  CompensatorStatus status{state_, refused_, refused_update_, forced_, broken_for_s_ > 0.0};
+  for (int i = inputs_ - 1; started_ && i >= 0; --i)
+    if (last_good_[i] < train_low_[i] || last_good_[i] > train_high_[i]) status.outside_training = i;
+  for (int o = outputs_ - 1; o >= 0; --o)
+    if (std::abs(output_[o]) >= limits_.limit) status.limited_output = o;
+  return status;
 }
 
 bool Compensator::update(int output, double gain_factor, double offset_correction) noexcept {

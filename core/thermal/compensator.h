@@ -52,6 +52,9 @@ struct CompensatorStatus {
   int refused_update = -1;        ///< output whose last measured update was refused as impossible, -1 if none
   bool forced = false;            ///< the model was called not good enough and was loaded all the same
   bool value_not_finite = false;  ///< the model's own value was no number in the last step: its lags start again
+  int outside_training = -1;      ///< first input used in the last step that lies outside its range of training, -1 if
+                                  ///< none: the model extrapolates
+  int limited_output = -1;        ///< first output that stands at its limit, -1 if none: more would be needed
 };
 
 class Compensator {
@@ -117,6 +120,8 @@ class Compensator {
   std::array<std::string, maximum_outputs> output_names_;
   std::array<double, maximum_inputs> low_{};
   std::array<double, maximum_inputs> high_{};
+  std::array<double, maximum_inputs> train_low_{};
+  std::array<double, maximum_inputs> train_high_{};
   std::array<double, maximum_inputs> last_good_{};
   std::array<double, maximum_inputs> bad_for_s_{};
   std::array<Transform, 3 * maximum_inputs> transform_{};

@@ -140,9 +140,9 @@ int spindrift_compensator_step_sized(spindrift_compensator* compensator, const d
 int spindrift_compensator_get_status(const spindrift_compensator* compensator, spindrift_compensator_status* status) {
   if (compensator == nullptr || status == nullptr || status->struct_size <= sizeof status->struct_size) return -1;
   const spindrift::CompensatorStatus now = compensator->object.status();
-  const spindrift_compensator_status all{status->struct_size, static_cast<std::int32_t>(now.state),
-                                         now.refused_input,   now.refused_update,
-                                         now.forced ? 1 : 0,  now.value_not_finite ? 1 : 0};
+  const spindrift_compensator_status all{
+      status->struct_size, static_cast<std::int32_t>(now.state), now.refused_input,    now.refused_update,
+      now.forced ? 1 : 0,  now.value_not_finite ? 1 : 0,         now.outside_training, now.limited_output};
   std::memcpy(status, &all, std::min(status->struct_size, sizeof all));
   return 0;
 }

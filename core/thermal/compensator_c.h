@@ -69,6 +69,8 @@ typedef struct spindrift_compensator_status {
   int32_t refused_update;   /* output whose last measured update was refused, -1 if none */
   int32_t forced;           /* 1: the model was called not good enough and was loaded by force */
   int32_t value_not_finite; /* 1: the model's own value was no number in the last step */
+  int32_t outside_training; /* first input used in the last step outside its range of training, -1 if none */
+  int32_t limited_output;   /* first output that stands at its limit, -1 if none */
 } spindrift_compensator_status;
 
 /* 0, or -1 if an argument is NULL or the struct has no size. */

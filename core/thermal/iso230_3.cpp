@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "core/base/error.h"
+#include "core/base/random.h"
 #include "core/math/statistics.h"
 
 namespace spindrift {
@@ -119,21 +120,142 @@ std::vector<Level> levelsOf(std::span<const double> time_s, const std::vector<do
   return levels;
 }
 
-struct Range {
-  double size = 0.0;
-  double variance = 0.0;  ///< per variance of one reading
+/// Sums over the window around every reading, so that levels of many records with the same gaps cost little each.
+class LevelFilter {
+ public:
+  LevelFilter(std::span<const double> time_s, const std::vector<char>& there, double window_s, double from_s,
+              double to_s)
+      : time_s_(time_s) {
+    for (std::size_t i = 0; i < there.size(); ++i)
+      if (there[i] != 0 && time_s[i] >= from_s && time_s[i] <= to_s) kept_.push_back(i);
+    std::size_t first = 0;
+    std::size_t last = 0;
+    for (const std::size_t i : kept_) {
+      const double low_s = std::max(from_s, time_s[i] - 0.5 * window_s);
+      const double high_s = std::min(to_s, time_s[i] + 0.5 * window_s);
+      while (first < kept_.size() && time_s[kept_[first]] < low_s) ++first;
+      while (last < kept_.size() && time_s[kept_[last]] <= high_s) ++last;
+      windows_.push_back({first, last});
+    }
+  }
+  [[nodiscard]] std::size_t size() const noexcept { return kept_.size(); }
+  [[nodiscard]] std::size_t row(std::size_t k) const noexcept { return kept_[k]; }
+  /// The straight line through each window at its reading (levelAt); fewer than three readings: the reading itself.
+  /// `values`: one for each kept reading.
+  [[nodiscard]] std::vector<double> levels(const std::vector<double>& values) const {
+    const double origin_s = kept_.empty() ? 0.0 : 0.5 * (time_s_[kept_.front()] + time_s_[kept_.back()]);
+    const std::size_t n = kept_.size();
+    std::vector<double> t1(n + 1, 0.0), t2(n + 1, 0.0), y1(n + 1, 0.0), ty(n + 1, 0.0);
+    for (std::size_t k = 0; k < n; ++k) {
+      const double t = time_s_[kept_[k]] - origin_s;
+      t1[k + 1] = t1[k] + t;
+      t2[k + 1] = t2[k] + t * t;
+      y1[k + 1] = y1[k] + values[k];
+      ty[k + 1] = ty[k] + t * values[k];
+    }
+    std::vector<double> out = values;
+    for (std::size_t k = 0; k < n; ++k) {
+      const auto [first, last] = windows_[k];
+      const double count = static_cast<double>(last - first);
+      const double when = time_s_[kept_[k]] - origin_s;
+      const double st = t1[last] - t1[first] - count * when;
+      const double stt = t2[last] - t2[first] - 2.0 * when * (t1[last] - t1[first]) + count * when * when;
+      const double sy = y1[last] - y1[first];
+      const double sty = ty[last] - ty[first] - when * sy;
+      const double spread = stt - (count > 0.0 ? st * st / count : 0.0);
+      if (!(count >= 3.0) || !(spread > 1e-9 * (1.0 + stt))) continue;
+      const double slope = (sty - st * sy / count) / spread;
+      out[k] = (sy - slope * st) / count;
+    }
+    return out;
+  }
+
+ private:
+  std::span<const double> time_s_;
+  std::vector<std::size_t> kept_;
+  std::vector<std::pair<std::size_t, std::size_t>> windows_;  ///< of kept readings, the last excluded
 };
 
-Range rangeOf(const std::vector<Level>& levels) {
-  const Level* low = nullptr;
-  const Level* high = nullptr;
-  for (const Level& level : levels) {
-    if (!std::isfinite(level.value)) continue;
-    if (low == nullptr || level.value < low->value) low = &level;
-    if (high == nullptr || level.value > high->value) high = &level;
+struct Range {
+  double size = 0.0;
+  double sigma = 0.0;
+};
+
+/// Range of the levels with what noise adds to it taken off. The largest of many levels is one that noise has raised
+/// and the smallest one that it has lowered: a record of pure noise has a range as well. So the shape of the record
+/// (its levels over a wider window) is stretched until it shows, with noise of the readings added and the levels taken
+/// as from the readings, the range that was found, in the mean of many such records; the standard uncertainty is what
+/// the stretch changes where the range found is one standard deviation of theirs larger or smaller (parametric
+/// bootstrap).
+Range rangeOf(std::span<const double> time_s, const std::vector<double>& values, double window_s, double from_s,
+              double to_s, double reading_sigma) {
+  std::vector<char> there(values.size(), 0);
+  for (std::size_t i = 0; i < values.size(); ++i) there[i] = std::isfinite(values[i]) ? 1 : 0;
+  const LevelFilter filter(time_s, there, window_s, from_s, to_s);
+  const std::size_t n = filter.size();
+  if (n < 2) return {};
+  std::vector<double> kept(n);
+  for (std::size_t k = 0; k < n; ++k) kept[k] = values[filter.row(k)];
+  const std::vector<double> levels = filter.levels(kept);
+  const auto size = [](const std::vector<double>& v) {
+    const auto [low, high] = std::minmax_element(v.begin(), v.end());
+    return *high - *low;
+  };
+  const double found = size(levels);
+  if (!(reading_sigma > 0.0) || !(found > 0.0)) return {found, 0.0};
+  constexpr double wider = 12.0;
+  constexpr double least_readings = 48.0;
+  const double period_s = (time_s[filter.row(n - 1)] - time_s[filter.row(0)]) / static_cast<double>(n - 1);
+  const double shape_s = std::max(wider * window_s, least_readings * period_s);
+  const std::vector<double> shape = LevelFilter(time_s, there, shape_s, from_s, to_s).levels(kept);
+  const double shape_size = size(shape);
+  constexpr std::size_t readings_at_most = 4'000'000;
+  const std::size_t records = std::clamp<std::size_t>(readings_at_most / n, 24, 200);
+  std::vector<std::vector<double>> noise(records);
+  Random random(230);
+  for (std::vector<double>& record : noise) {
+    record.resize(n);
+    for (double& v : record) v = random.normal(0.0, reading_sigma);
+    record = filter.levels(record);
   }
-  if (low == nullptr) return {};
-  return {high->value - low->value, low->variance + high->variance};
+  const auto stretched = [&](double factor) {
+    double sum = 0.0;
+    double squares = 0.0;
+    for (const std::vector<double>& record : noise) {
+      double low = std::numeric_limits<double>::infinity();
+      double high = -low;
+      for (std::size_t k = 0; k < n; ++k) {
+        const double v = factor * shape[k] + record[k];
+        low = std::min(low, v);
+        high = std::max(high, v);
+      }
+      sum += high - low;
+      squares += (high - low) * (high - low);
+    }
+    const double mean = sum / static_cast<double>(records);
+    return std::pair{mean, std::sqrt(std::max(0.0, squares / static_cast<double>(records) - mean * mean))};
+  };
+  // The mean range grows with the factor: halving the interval finds it.
+  const auto factorFor = [&](double range) {
+    double low = 0.0;
+    double high = 2.0;
+    if (!(shape_size > 0.0) || stretched(low).first >= range) return 0.0;
+    for (int step = 0; step < 20; ++step) {
+      const double middle = 0.5 * (low + high);
+      (stretched(middle).first < range ? low : high) = middle;
+    }
+    return 0.5 * (low + high);
+  };
+  const double factor = factorFor(found);
+  const double spread = stretched(factor).second;
+  const double more = factorFor(std::max(found, stretched(0.0).first) + spread);
+  const double less = factorFor(found - spread);
+  // Near the noise a little more of it is much of a range: two standard deviations less may be nothing at all.
+  const double far_less = factorFor(found - 2.0 * spread);
+  const double half = std::max({0.5 * (more - less), 0.5 * (factor - far_less), factor > 0.0 ? 0.0 : more});
+  const double sigma = half * shape_size;
+  // Steps are no noise that many readings average: both ends are known to a part of a step.
+  return {factor * shape_size, std::max(sigma, stepOf(kept) / std::sqrt(6.0))};
 }
 
 /// A level over more than half of the record tells nothing of what changed in it; the usual window is taken of any.
@@ -354,7 +476,7 @@ EtveResult evaluateEtve(std::span<const double> time_s, const std::vector<Compon
     EtveComponent out;
     out.name = c.name;
     out.unit = c.unit;
-    const Range range = rangeOf(levelsOf(time_s, c.values, window_s, time_s.front(), time_s.back()));
+    const Range range = rangeOf(time_s, c.values, window_s, time_s.front(), time_s.back(), readingSigma(c));
     double st = 0.0, sy = 0.0, stt = 0.0, sty = 0.0, n = 0.0;
     for (std::size_t i = 0; i < c.values.size(); ++i) {
       if (!std::isfinite(c.values[i])) continue;
@@ -364,7 +486,7 @@ EtveResult evaluateEtve(std::span<const double> time_s, const std::vector<Compon
       n += 1.0;
     }
     out.range = range.size;
-    out.range_sigma = std::sqrt(range.variance) * readingSigma(c);
+    out.range_sigma = range.sigma;
     out.range_per_K = std::nan("");
     out.slope_per_K = std::nan("");
     out.slope_sigma = std::nan("");
@@ -447,7 +569,7 @@ SpindleResult evaluateRotatingSpindle(std::span<const double> time_s, std::span<
       beyond = now;
     }
     if (std::abs(out.at_end) < 3.0 * out.change_sigma) out.time_to_fraction_s = std::nan("");
-    out.range = rangeOf(levels).size;
+    out.range = rangeOf(time_s, c.values, window_s, start, stop, reading_sigma).size;
     result.components.push_back(out);
   }
   return result;

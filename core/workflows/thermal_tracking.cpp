@@ -293,7 +293,8 @@ CompensateResult compensateLog(const TimeSeries& series, const ThermalModel& mod
     result.warnings.push_back(
         fmt::format("The model of {} was called not good enough when it was identified ({}); do not use this "
                     "compensation on a machine.",
-                    output.name, output.verdict->reason));
+                    output.name, output.verdict->reason.empty() ? "no reason given" : output.verdict->reason));
+    result.forced = true;
   }
   std::vector<const Signal*> inputs;
   for (int i = 0; i < compensator.inputCount(); ++i) inputs.push_back(&series.at(compensator.inputName(i)));
@@ -332,7 +333,9 @@ CompensateResult compensateLog(const TimeSeries& series, const ThermalModel& mod
   std::vector<char> trained(series.time_s.size(), 0);
   std::size_t count = 0;
   for (std::size_t r = 0; r < trained.size() && same_log; ++r) {
-    trained[r] = series.time_s[r] >= model.train_from_s && series.time_s[r] < model.train_to_s ? 1 : 0;
+    // A range up to the end of the record holds its last row.
+    const bool before_end = series.time_s[r] < model.train_to_s || model.train_to_s >= series.time_s.back();
+    trained[r] = series.time_s[r] >= model.train_from_s && before_end ? 1 : 0;
     count += trained[r] != 0 ? 1U : 0U;
   }
   const std::string from_log = model.source.empty() ? "another log" : model.source;
@@ -381,6 +384,7 @@ nlohmann::json CompensateResult::json() const {
       {"holding_steps", holding},
       {"fallback_steps", fallback},
       {"warnings", warnings},
+      {"forced", forced},
       {"unseen", unseen},
       {"sign_convention",
        "compensation = minus the predicted deviation, to be added to the command; deviation = actual minus commanded, "
@@ -414,7 +418,9 @@ std::string CompensateResult::summary() const {
                           o.unseen.reduction_percent < 0.0 ? "more" : "less");
     }
     if (std::isfinite(o.reduction_percent)) {
-      text += fmt::format("{:.3f} before, {:.3f} after over all rows, ", o.rms_before, o.rms_after);
+      text +=
+          fmt::format("{:.3f} before, {:.3f} after over all rows (about the mean of the rows that trained the model), ",
+                      o.rms_before, o.rms_after);
     } else {
       text += "not measured in this log, ";
     }

@@ -87,6 +87,7 @@ struct CompensateResult {
   std::size_t holding = 0;
   std::size_t fallback = 0;
   std::vector<std::string> warnings;  ///< a model that was called not good enough when it was identified
+  bool forced = false;                ///< there is such a model: no control loads it unless it is forced to
   std::string unseen;                 ///< which rows trained nothing, one sentence
   [[nodiscard]] nlohmann::json json() const;
   [[nodiscard]] std::string summary() const;

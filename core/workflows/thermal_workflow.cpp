@@ -161,7 +161,8 @@ IdentifyResult identifyThermalModel(TimeSeries series, const IdentifyRequest& re
                       range.from_s, range.to_s, request.output, series.time_s.front(), series.time_s.back()));
     }
   }
-  if (request.test.from_s < request.train.to_s && request.train.from_s < request.test.to_s) {
+  const bool overlap = request.test.from_s < request.train.to_s && request.train.from_s < request.test.to_s;
+  if (overlap) {
     result.notes.push_back("Train and test overlap: the test figures are not evidence for new data.");
   }
   std::vector<std::string> names = request.inputs.empty() ? automaticInputs(series, request.output) : request.inputs;
@@ -267,6 +268,11 @@ IdentifyResult identifyThermalModel(TimeSeries series, const IdentifyRequest& re
       verdict.reason += (verdict.reason.empty() ? "" : "; ") + reason;
       result.notes.push_back(reason + ": do not compensate with it; train on a longer or more varied range.");
     }
+  }
+  if (overlap) {
+    result.good_enough = verdict.good_enough = false;
+    verdict.reason += std::string(verdict.reason.empty() ? "" : "; ") +
+                      "it was judged on rows that trained it, which shows nothing of new data";
   }
   if (result.model.outputs.front().terms.empty()) {
     result.good_enough = verdict.good_enough = false;

@@ -345,6 +345,30 @@ TEST(Compensator, NoMeasuredOffsetHoldsAnOutputAtItsLimit) {
   EXPECT_TRUE(c.update(0, 1.0, 19.0));
 }
 
+TEST(Compensator, SaysWhatIsExtrapolatedAndWhatStandsAtItsLimit) {
+  CompensatorLimits limits;
+  limits.limit = 1.0;
+  Compensator c;
+  ASSERT_EQ(c.load(model(), 1.0, limits), "");
+  EXPECT_EQ(c.status().outside_training, -1) << "nothing came yet";
+  const ThermalInput& second = model().inputs[1];
+  double inputs[2] = {model().inputs[0].train_min, second.train_max};
+  double out = 0.0;
+  c.step(inputs, nullptr, &out);
+  EXPECT_EQ(c.status().outside_training, -1);
+  inputs[1] = second.train_max + 1.0;
+  EXPECT_EQ(c.step(inputs, nullptr, &out), CompensatorState::Running) << "within the margin";
+  EXPECT_EQ(c.status().outside_training, 1);
+  inputs[0] = model().inputs[0].train_max;
+  for (int k = 0; k < 5000; ++k) c.step(inputs, nullptr, &out);
+  EXPECT_EQ(std::abs(out), 1.0);
+  EXPECT_EQ(c.status().limited_output, 0);
+  limits.limit = 200.0;
+  ASSERT_EQ(c.load(model(), 1.0, limits), "");
+  for (int k = 0; k < 5000; ++k) c.step(inputs, nullptr, &out);
+  EXPECT_EQ(c.status().limited_output, -1);
+}
+
 TEST(Compensator, TheInterfaceForCChecksLengthsSizesAndNames) {
   const testing::TempFolder folder;
   ThermalModel m = model();
