@@ -125,7 +125,7 @@ void applyModel(ReviewPicture& picture, const NineParameterFit& fit, bool residu
 void showNineParameters(ReviewPicture& picture, const ObservationSet& observations, const MachineDescription& machine,
                         const ReviewRequest& request) {
   try {
-    NineParameterOptions options;
+    NineParameterOptions options = request.fit;
     options.state = request.state;
     const NineParameterFit fit = fitNineParameters(observations, options);
     if (fit.status == FitStatus::Rejected) throw InputError(fit.message);

@@ -38,8 +38,9 @@ struct ReviewRequest {
   std::string state;
   ReviewQuantity quantity = ReviewQuantity::Measured;
   Component component = Component::EX;
-  int nodes = 81;         ///< of the longer side of a model's heat map; between points half of it
-  bool heat_map = false;  ///< also between points; that of the nine parameters is always there
+  int nodes = 81;            ///< of the longer side of a model's heat map; between points half of it
+  bool heat_map = false;     ///< also between points; that of the nine parameters is always there
+  NineParameterOptions fit;  ///< of the nine parameters; its state counts for nothing beside `state`
 };
 
 /// What a model says for every row of the observations, um or urad; NaN where it says nothing. Empty `value`: there is

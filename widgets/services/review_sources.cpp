@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "core/base/error.h"
+#include "core/tasks/task_options.h"
 #include "core/tasks/task_work.h"
 
 namespace spindrift::gui {
@@ -85,6 +86,7 @@ std::shared_ptr<const ReviewSource> ReviewSources::source(std::int64_t id) {
       readOther(*session_.session(), id, *source);
     }
     source->id = id;
+    source->fit = chosen<NineParameterChoice>(*session_.session(), id).options();
     source->name = QString::fromStdString(source->campaign->name);
     if (source->observations) source->states = source->observations->states();
     if (source->campaign->captureList("scans.csv")) source->scans = readScanList(*source->campaign);

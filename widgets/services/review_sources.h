@@ -25,6 +25,7 @@ struct ReviewSource {
   std::vector<ScanCapture> scans;                      ///< empty without a profiler
   /// The stored search for what the simulation lacks; null if there was none.
   std::shared_ptr<const nlohmann::json> discrepancy;
+  NineParameterOptions fit;  ///< as chosen on the page Model of that campaign
   /// What has changed since what is shown was worked out; empty: it holds.
   std::vector<std::string> changed;
 

@@ -57,6 +57,17 @@ TEST(Review, ModelAndResidualFollowTheNineParameters) {
   EXPECT_FALSE(one.message.empty());
 }
 
+TEST(Review, TheNineParametersAreThoseThatWereChosenForThePage) {
+  ObservationSet disturbed = states(9);
+  for (Observation& o : disturbed.rows)
+    if (o.point == "P4" && o.component == Component::EX && o.state == "M2") o.value += 50.0;
+  ReviewRequest request{"M2", ReviewQuantity::NineParameters, Component::EX};
+  const double with = reviewOf(disturbed, table(), request).points[2].components.at(Component::EX).value;
+  EXPECT_GT(std::abs(with - 5.4), 1.0);
+  for (const char* point : {"P0", "P1", "P2", "P3", "P5", "P6", "P7", "P8"}) request.fit.points.emplace_back(point);
+  EXPECT_NEAR(reviewOf(disturbed, table(), request).points[2].components.at(Component::EX).value, 5.4, 1e-6);
+}
+
 TEST(Review, AStateThatIsHeldOutHasAMapBetweenItsPointsAndSaysSo) {
   ObservationSet all = states(9);
   ReviewRequest request{"M2", ReviewQuantity::Measured, Component::EX};

@@ -80,6 +80,7 @@ void ReviewPage::showAll() {
       if (r.source == nullptr || !r.source->observations)
         r.problem = tr("This campaign has no observations yet: evaluate its captures first.");
       r.request.state = pane->state(at_slider);
+      if (r.source != nullptr) r.request.fit = r.source->fit;
       r.request.component = static_cast<Component>(component_->current());
       r.difference = pane->content() == PaneContent::Difference;
       r.request.heat_map = heat_maps_->isChecked();
