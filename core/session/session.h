@@ -42,6 +42,11 @@ struct ResultOrigin {
   std::string kind;
   nlohmann::json options = nlohmann::json::object();
   nlohmann::json inputs = nlohmann::json::object();
+
+  /// Made from the same, with the same options.
+  [[nodiscard]] bool sameAs(const ResultOrigin& other) const {
+    return campaign == other.campaign && kind == other.kind && inputs == other.inputs && options == other.options;
+  }
 };
 
 struct StoredResult {

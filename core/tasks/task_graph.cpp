@@ -80,13 +80,17 @@ std::string_view toString(TaskState state) noexcept {
 
 void TaskLedger::started(const ResultOrigin& origin) {
   Entry& entry = entries_[{origin.campaign, origin.kind}];
-  ++entry.running;
+  entry.running.push_back(origin);
   entry.failure.clear();
 }
 
 void TaskLedger::ended(const ResultOrigin& origin) {
   const auto found = entries_.find({origin.campaign, origin.kind});
-  if (found != entries_.end() && found->second.running > 0) --found->second.running;
+  if (found == entries_.end()) return;
+  std::vector<ResultOrigin>& running = found->second.running;
+  const auto same =
+      std::find_if(running.begin(), running.end(), [&](const ResultOrigin& o) { return o.sameAs(origin); });
+  if (same != running.end()) running.erase(same);
 }
 
 void TaskLedger::failed(const ResultOrigin& origin, const std::string& sentence) {
@@ -98,14 +102,20 @@ void TaskLedger::failed(const ResultOrigin& origin, const std::string& sentence)
 
 bool TaskLedger::running(std::int64_t campaign, const std::string& task) const {
   const auto found = entries_.find({campaign, task});
-  return found != entries_.end() && found->second.running > 0;
+  return found != entries_.end() && !found->second.running.empty();
+}
+
+bool TaskLedger::running(const ResultOrigin& now) const {
+  const auto found = entries_.find({now.campaign, now.kind});
+  return found != entries_.end() && std::any_of(found->second.running.begin(), found->second.running.end(),
+                                                [&](const ResultOrigin& o) { return o.sameAs(now); });
 }
 
 const std::string* TaskLedger::failure(const ResultOrigin& now) const {
   const auto found = entries_.find({now.campaign, now.kind});
   if (found == entries_.end() || found->second.failure.empty()) return nullptr;
   const ResultOrigin& then = found->second.failed_with;
-  return then.inputs == now.inputs && then.options == now.options ? &found->second.failure : nullptr;
+  return then.sameAs(now) ? &found->second.failure : nullptr;
 }
 
 TaskGraph::TaskGraph(const Session& session, std::int64_t campaign, std::shared_ptr<const Campaign> data, Latest latest,

@@ -106,12 +106,14 @@ class TaskLedger {
   void ended(const ResultOrigin& origin);
   void failed(const ResultOrigin& origin, const std::string& sentence);
   [[nodiscard]] bool running(std::int64_t campaign, const std::string& task) const;
+  /// Whether it runs, or waits to, on exactly these inputs and options: what it will give need not be asked for again.
+  [[nodiscard]] bool running(const ResultOrigin& now) const;
   /// Why it failed with exactly these inputs and options; null if it did not.
   [[nodiscard]] const std::string* failure(const ResultOrigin& now) const;
 
  private:
   struct Entry {
-    int running = 0;
+    std::vector<ResultOrigin> running;
     ResultOrigin failed_with;
     std::string failure;
   };

@@ -452,14 +452,42 @@ struct WriteReport {
     return [task = ReportTask::of(graph, in.excluded)](JobContext& job, TaskOutput) { return task.run(job); };
   }
   static nlohmann::json payload(const WrittenReport& written) { return written.json(); }
+  /// What it tells in full and would otherwise work out for itself: run first and stored, so that what is reported is
+  /// what is shown. What cannot be run, or has just failed, is told as far as it goes; other results are told as
+  /// outdated where they are.
+  static TaskIds after(const TaskGraph& graph) {
+    const auto wanted = [&](const char* id, bool told) {
+      const std::vector<std::string> all = graph.tasks();
+      if (!told || std::find(all.begin(), all.end(), id) == all.end()) return false;
+      const TaskState state = graph.status(id).state;
+      return state != TaskState::Current && state != TaskState::Failed && state != TaskState::Blocked &&
+             graph.whyNot(id).empty();
+    };
+    TaskIds first;
+    if (wanted("fit", taskKind("fit", graph.facts()).told && graph.latest("fit") != nullptr)) first.emplace_back("fit");
+    if (wanted("discrepancy", options(graph).tells_discrepancy)) first.emplace_back("discrepancy");
+    return first;
+  }
   static std::string blocked(const TaskGraph& graph) {
     return canReport(graph.data(), graph.hasObservations()) ? std::string() : "There is nothing to report yet.";
+  }
+  /// A result, and what is said of one that does not hold any more.
+  static std::string toldOf(const TaskGraph& graph, const std::string& id) {
+    std::string result = graph.fingerprintOf(id);
+    const StoredResult* latest = graph.latest(id);
+    if (latest == nullptr) return result;
+    const std::vector<std::string> changes = graph.changes(*latest);
+    if (changes.empty()) return result;
+    Fingerprint told;
+    told.add(result);
+    for (const std::string& change : changes) told.add(change);
+    return told.text();
   }
   static void addInputs(const TaskGraph& graph, nlohmann::json& inputs) {
     // It has to be written again when what it tells is another.
     for (const TaskKind& kind : taskKinds())
       if (kind.told && &taskKind(kind.id, graph.facts()) == &kind)
-        inputs[std::string(kind.id)] = graph.fingerprintOf(std::string(kind.id));
+        inputs[std::string(kind.id)] = toldOf(graph, std::string(kind.id));
     // What is printed word by word, beside the notes (an option).
     Fingerprint reasons;
     for (const Exclusion& exclusion : graph.session().exclusions(graph.campaign()))
@@ -592,6 +620,7 @@ constexpr std::array kinds{
                            .belongs = always,
                            .blocked = WriteReport::blocked,
                            .made_from = fromCaptures,
+                           .after = WriteReport::after,
                            .add_inputs = WriteReport::addInputs}),
 };
 

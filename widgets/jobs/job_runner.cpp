@@ -212,16 +212,24 @@ void JobRunner::cancel(int id) {
   }
 }
 
+void JobRunner::empty(JobQueue queue) {
+  Lane& own = lane(queue);
+  // Whoever waits for one of them is told, and may look at what waits.
+  for (Waiting& waiting : std::exchange(own.queue, {})) {
+    if (waiting.job.cancelled) waiting.job.cancelled();
+    if (!waiting.job.quiet) Q_EMIT finished(waiting.job.title, JobOutcome::Cancelled, {});
+  }
+  if (own.current != nullptr) own.current->thread.request_stop();
+}
+
 void JobRunner::cancelAll() {
-  lane(JobQueue::Batch).queue.clear();
-  if (lane(JobQueue::Batch).current != nullptr) lane(JobQueue::Batch).current->thread.request_stop();
+  empty(JobQueue::Batch);
   cancelOfSession();
 }
 
 void JobRunner::cancelOfSession() {
   for (const JobQueue queue : {JobQueue::Work, JobQueue::Display, JobQueue::Reading, JobQueue::Files}) {
-    lane(queue).queue.clear();
-    if (lane(queue).current != nullptr) lane(queue).current->thread.request_stop();
+    empty(queue);
   }
   Q_EMIT changed();
 }

@@ -102,6 +102,8 @@ class JobRunner : public QObject {
     std::unique_ptr<Running> current;
   };
 
+  /// Nothing of it is begun any more, and what runs is stopped.
+  void empty(JobQueue queue);
   [[nodiscard]] Lane& lane(JobQueue queue) { return lanes_[static_cast<std::size_t>(queue)]; }
   [[nodiscard]] const Running* shown() const;
   void startNext(JobQueue queue);

@@ -57,6 +57,11 @@ class RunningChain : public std::enable_shared_from_this<RunningChain> {
     const PendingResult pending = session_.begin(task);
     const bool last = task == wanted_;
     const auto self = shared_from_this();
+    // Whoever asked for it: it is not begun again, which would stop it and with it all that waits for it.
+    if (!last && session_.runsAlready(pending)) {
+      awaitEndOf(pending);
+      return;
+    }
     const ResultWork result = [self, last, work = std::move(work), origin = pending.origin](JobContext& job) -> Worked {
       auto given = std::make_shared<TaskGiven>(
           TaskGiven{origin.kind, origin, work(job, last ? TaskOutput::Both : TaskOutput::Payload)});
@@ -77,9 +82,31 @@ class RunningChain : public std::enable_shared_from_this<RunningChain> {
                       {.done = [self] { self->next(); },
                        .failed = [self](const QString& sentence) { self->fail(sentence); },
                        .cancelled =
-                           [self] {
-                             if (self->ends_.cancelled) self->ends_.cancelled();
+                           [self, pending, last] {
+                             // Asked for again by somebody else, who is now served first.
+                             if (!last && self->session_.runsAlready(pending)) {
+                               self->awaitEndOf(pending);
+                             } else if (self->ends_.cancelled) {
+                               self->ends_.cancelled();
+                             }
                            }}));
+  }
+
+  void awaitEndOf(const PendingResult& pending) {
+    const auto self = shared_from_this();
+    const auto waiting = std::make_shared<QMetaObject::Connection>();
+    *waiting = QObject::connect(
+        &jobs_, &JobRunner::changed, &session_,
+        [self, pending, waiting] {
+          if (self->session_.runsAlready(pending)) return;
+          QObject::disconnect(*waiting);
+          if (self->session_.atHand(self->campaign_)) {
+            self->next();
+          } else if (self->ends_.cancelled) {
+            self->ends_.cancelled();
+          }
+        },
+        Qt::QueuedConnection);
   }
 
   void fail(const QString& sentence) {

@@ -37,6 +37,7 @@ void SessionModel::openSession(const std::filesystem::path& folder) {
 
 void SessionModel::createSession(const std::filesystem::path& folder) {
   auto made = std::make_unique<Session>(Session::create(folder));
+  Q_EMIT campaignLeaving();
   session_ = std::move(made);
   ++opened_;
   ledger_ = {};
@@ -46,6 +47,7 @@ void SessionModel::createSession(const std::filesystem::path& folder) {
 }
 
 void SessionModel::close() {
+  Q_EMIT campaignLeaving();
   session_.reset();
   ++opened_;
   ledger_ = {};
@@ -67,6 +69,7 @@ void SessionModel::adopt(std::unique_ptr<Session> session, std::int64_t campaign
 }
 
 void SessionModel::adopt(LoadedSession loaded) {
+  Q_EMIT campaignLeaving();
   take(std::move(loaded));
   ++opened_;
   ledger_ = {};
@@ -95,6 +98,7 @@ void SessionModel::showExcluded() {
 }
 
 void SessionModel::selectCampaign(std::int64_t id) {
+  Q_EMIT campaignLeaving();
   load(id);
   ++visit_;
   setSetting("campaign", id);

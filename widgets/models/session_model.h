@@ -134,6 +134,10 @@ class SessionModel : public QObject {
   [[nodiscard]] TaskGraph tasks() const;
   /// What tasks of the campaign at hand, which there must be, work on.
   [[nodiscard]] TaskInputs taskInputs() const;
+  /// Work that would give the same as this one runs or waits.
+  [[nodiscard]] bool runsAlready(const PendingResult& pending) const {
+    return pending.session == opened_ && ledger_.running(pending.origin);
+  }
   /// Work on a task of the campaign at hand runs or waits.
   [[nodiscard]] bool isRunning(const std::string& task) const { return ledger_.running(state_.id, task); }
   /// Takes an earlier result that is what the task would give now as the latest. False: there is none.
@@ -198,6 +202,8 @@ class SessionModel : public QObject {
 
  Q_SIGNALS:
   void sessionChanged();
+  /// Another session or campaign is about to be at hand: what belongs to this one can still be stored in it.
+  void campaignLeaving();
   void campaignChanged();
   void resultChanged(const QString& kind);
   /// Work on a result has begun, or ended without one.

@@ -34,6 +34,7 @@ IncomingService::IncomingService(SessionModel& session) : QObject(&session), ses
   clock_.start();
   timer_.setInterval(500);
   connect(&timer_, &QTimer::timeout, this, &IncomingService::look);
+  connect(&session_, &SessionModel::campaignLeaving, this, &IncomingService::finishPictures);
   connect(&session_, &SessionModel::campaignChanged, this, &IncomingService::follow);
   follow();  // the campaign may be there already
 }
@@ -277,6 +278,7 @@ void IncomingService::take(const QString& name, std::shared_ptr<const GrayImage>
     id = QStringLiteral("%1 %2").arg(name).arg(++pictures_).toStdString();
   } while (intake_.knows(id));
   const std::int64_t written_ns = QDateTime::currentMSecsSinceEpoch() * 1'000'000;
+  taken_.push_back({id, image, written_ns, contextNow()});
   Job job;
   job.title = tr("Checking the picture");
   job.quiet = true;
@@ -284,7 +286,9 @@ void IncomingService::take(const QString& name, std::shared_ptr<const GrayImage>
     auto examined = std::make_shared<ExaminedFile>(examineImage(encodePng(*image), id, written_ns, *context));
     const QImage picture = toImage(*image).scaled(128, 72, Qt::KeepAspectRatio, Qt::SmoothTransformation);
     return std::function<void()>([this, id, examined, picture, folder] {
-      if (folder != campaign_folder_) return;
+      const auto waiting = std::find_if(taken_.begin(), taken_.end(), [&](const Taken& t) { return t.id == id; });
+      if (folder != campaign_folder_ || waiting == taken_.end()) return;  // recorded when the campaign was left
+      taken_.erase(waiting);
       keepPicture(id, picture);
       intake_.show(examined->item);
       record(*examined);
@@ -296,6 +300,16 @@ void IncomingService::take(const QString& name, std::shared_ptr<const GrayImage>
     Q_EMIT changed();
   };
   jobs_.run(std::move(job));
+}
+
+/// A picture is nowhere but in memory until it is recorded.
+void IncomingService::finishPictures() {
+  if (session_.campaign() == nullptr) return;
+  for (const Taken& t : std::exchange(taken_, {})) {
+    const ExaminedFile examined = examineImage(encodePng(*t.image), t.id, t.written_ns, *t.context);
+    intake_.show(examined.item);
+    record(examined);
+  }
 }
 
 void IncomingService::takeFiles(const QStringList& files, std::function<void(const std::vector<IncomingItem>&)> done) {

@@ -44,6 +44,8 @@ class IncomingService : public QObject {
   [[nodiscard]] const TouchFeed* touches() const { return intake_.touches(); }
   /// A picture of a camera, checked and taken over like a file.
   void take(const QString& name, std::shared_ptr<const GrayImage> image);
+  /// Records what `take` was given and has not got to yet: before the campaign is left, or the program.
+  void finishPictures();
   /// Files that were given by hand, one after the other: checked, copied and taken over as those that arrive in the
   /// watched folder. `done` gets what became of each, also when another campaign is chosen meanwhile: those that were
   /// not looked at say so.
@@ -101,6 +103,13 @@ class IncomingService : public QObject {
   std::string campaign_folder_;
   int generation_ = -1;
   int pictures_ = 0;
+  struct Taken {
+    std::string id;
+    std::shared_ptr<const GrayImage> image;
+    std::int64_t written_ns = 0;
+    std::shared_ptr<const IncomingContext> context;
+  };
+  std::vector<Taken> taken_;  ///< pictures that are being looked at
   bool examining_ = false;
   std::deque<Handed> handed_;
   bool looking_ = false;  ///< at one of them

@@ -47,6 +47,7 @@
 #include "widgets/pages/compensate/closed_loop_page.h"
 #include "widgets/pages/plant/plant_page.h"
 #include "widgets/services/connections_service.h"
+#include "widgets/services/incoming_service.h"
 #include "widgets/shell/demo.h"
 #include "widgets/shell/help_panel.h"
 #include "widgets/shell/new_measurement_dialog.h"
@@ -158,7 +159,11 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent), workflow_(session
   });
   connect(&session_, &SessionModel::campaignChanged, this, [this] {
     refreshCampaigns();
-    showSessionOrWelcome();
+    // Nobody is taken away from the plant or from a machine that is being compensated because the campaign was read
+    // again; only where another one was chosen.
+    const bool other = shown_visit_ != session_.visit();
+    shown_visit_ = session_.visit();
+    if (other || session_.campaign() == nullptr || welcomeShown()) showSessionOrWelcome();
     showStep();
   });
   connect(&session_, &SessionModel::inputsChanged, this, &MainWindow::refreshPage);
@@ -810,6 +815,7 @@ void MainWindow::restoreSplitters(Page& page) {
 
 void MainWindow::closeEvent(QCloseEvent* event) {
   const bool compensating = ClosedLoopService::of(session_).running();
+  IncomingService::of(session_).finishPictures();
   if (compensating || jobs_.working()) {
     const QString sentence =
         compensating ? tr("A machine is being compensated. Quitting fades its compensation to zero and ends the loop; "

@@ -90,7 +90,7 @@ class MainWindow : public QMainWindow {
   void openManual(const QString& file);
   /// The manual in the language of the window: set by a job the first time.
   void openTranslatedManual();
-  void openEffects();        ///< the list of effects of the step Discrepancy
+  void openEffects();  ///< the list of effects of the step Discrepancy
   /// Runs every result of the campaign that does not hold any more, and says what stays outdated.
   void runOutdated();
   void openPlant();  ///< many machines; works without a session
@@ -213,6 +213,7 @@ class MainWindow : public QMainWindow {
   std::map<const QAction*, std::function<QString()>> needs_;
   QPushButton* next_;
   QPushButton* back_;
+  std::int64_t shown_visit_ = -1;  ///< of the campaign that the window went to last
 };
 
 }  // namespace spindrift::gui

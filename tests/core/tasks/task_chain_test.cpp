@@ -101,6 +101,19 @@ TEST_F(TaskChainTest, ACompensationAndAReportHaveWhatTheyNeed) {
   EXPECT_TRUE(status("report").current);
 }
 
+/// The report would otherwise tell numbers that are neither shown nor stored.
+TEST_F(TaskChainTest, AReportRunsTheFitFirstThatItTells) {
+  run("fit");
+  EXPECT_THAT(run("report"), ElementsAre("report"));
+  session_->setSetting(campaignKey(option_keys::cycles, id_), {{"second_axis", true}});
+  EXPECT_EQ(status("report").state, TaskState::Outdated) << "it tells a fit that does not hold any more";
+  EXPECT_THAT(run("report"), ElementsAre("fit", "report"));
+  exclude(3);
+  EXPECT_THAT(run("report"), ElementsAre("evaluate", "fit", "report"));
+  EXPECT_TRUE(status("fit").current);
+  EXPECT_TRUE(status("report").current);
+}
+
 TEST_F(TaskChainTest, AFailureEndsItWithItsReason) {
   const std::filesystem::path list = std::filesystem::path(session_->campaign(id_).folder) / "captures/touches.csv";
   const std::string whole = readFile(list);

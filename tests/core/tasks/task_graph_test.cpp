@@ -155,6 +155,22 @@ TEST(TaskGraph, WhatChangesWhileTheWorkGoesOnMakesTheResultOutdated) {
   EXPECT_EQ(s.status("evaluate").state, TaskState::Outdated);
 }
 
+TEST(TaskLedger, KnowsOnWhatSomethingRuns) {
+  TaskLedger ledger;
+  const ResultOrigin plain{1, "evaluate", {}, {{"files", "a"}}};
+  ResultOrigin other = plain;
+  other.inputs["files"] = "b";
+  ledger.started(plain);
+  ledger.started(other);
+  EXPECT_TRUE(ledger.running(plain));
+  ledger.ended(plain);
+  EXPECT_FALSE(ledger.running(plain));
+  EXPECT_TRUE(ledger.running(other));
+  EXPECT_TRUE(ledger.running(1, "evaluate"));
+  ledger.failed(other, "why");
+  EXPECT_FALSE(ledger.running(1, "evaluate"));
+}
+
 TEST(TaskGraph, AFailureHoldsForTheInputsItFailedWith) {
   TaskSession s;
   const ResultOrigin started = s.graph().origin("evaluate");

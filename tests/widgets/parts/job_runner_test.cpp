@@ -91,6 +91,31 @@ TEST(JobRunner, BadInputBecomesASentence) {
   EXPECT_EQ(finished[0][1].value<JobOutcome>(), JobOutcome::Failed);
 }
 
+// Another session: what waits is not begun, and whoever asked for it is told.
+TEST(JobRunner, WhatWaitsIsToldWhenItWillNotBeBegun) {
+  JobRunner runner;
+  Job running;
+  running.title = QStringLiteral("running");
+  running.work = [](JobContext& context) -> std::function<void()> {
+    while (!context.cancelled()) std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    return [] {};
+  };
+  bool cancelled = false;
+  Job waiting;
+  waiting.title = QStringLiteral("waiting");
+  waiting.work = [](JobContext&) -> std::function<void()> { return [] {}; };
+  waiting.cancelled = [&] { cancelled = true; };
+  QSignalSpy finished(&runner, &JobRunner::finished);
+  runner.run(std::move(running));
+  runner.run(std::move(waiting));
+  runner.cancelOfSession();
+  EXPECT_TRUE(cancelled);
+  EXPECT_TRUE(QTest::qWaitFor([&] { return !runner.busy(); }, 10000));
+  ASSERT_EQ(finished.count(), 2);
+  EXPECT_EQ(finished[0][0].toString(), QStringLiteral("waiting"));
+  EXPECT_EQ(finished[0][1].value<JobOutcome>(), JobOutcome::Cancelled);
+}
+
 TEST(JobRunner, ClosingWhileAJobRunsIsSafe) {
   std::atomic<bool> started{false};
   bool applied = false;

@@ -206,6 +206,21 @@ TEST_F(CampaignsTest, WhatIsNeededFirstIsFiledAndTheRestIsNotBegunWhenAnotherCam
   EXPECT_EQ(kinds(first_), (std::vector<std::string>{"fit", "compensation"}));
 }
 
+// The compensation has a fit made first; that fit is asked for by itself meanwhile. Neither is given up.
+TEST_F(CampaignsTest, AskingForOneTaskStopsNoOtherThatNeedsIt) {
+  openTwo();
+  window_->workflow().goTo(StepId::Compensate);
+  wait();
+  window_->currentPage()->runAll();
+  ASSERT_TRUE(window_->jobs().busy());
+  window_->workflow().goTo(StepId::Model);
+  window_->currentPage()->runAll();
+  wait();
+  EXPECT_TRUE(QTest::qWaitFor([&] { return kinds(first_).size() == 2; }, 60000));
+  EXPECT_EQ(kinds(first_), (std::vector<std::string>{"fit", "compensation"}));
+  EXPECT_TRUE(session().tasks().status("compensation").current);
+}
+
 TEST_F(CampaignsTest, WhatIsOutdatedIsRunAsOne) {
   openTwo();
   EXPECT_FALSE(whyNot("Run what is outdated").isEmpty()) << "nothing was run yet";

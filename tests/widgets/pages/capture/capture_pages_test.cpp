@@ -103,6 +103,22 @@ TEST_F(CapturePages, WhatIsDroppedOntoTheWindowIsCheckedLikeWhatArrives) {
   waitFor([&] { return message().find("0 of 1") != std::string::npos; }, "the same once more");
 }
 
+// A picture of a camera is in memory alone until it was looked at.
+TEST_F(CapturePages, PicturesThatWereTakenStayWithTheirCampaign) {
+  newMeasurement(mill_text);
+  auto* page = go<NewCapturePage>(StepId::Capture);
+  ASSERT_NE(page, nullptr);
+  page->setInstrument(Instrument::Microscope);
+  page->arriving()->plan()->makePlan();
+  const std::int64_t first = window_->session().campaignId();
+  const std::int64_t second = window_->session().session()->newCampaign("second", "2026-02-01T08:00:00Z", mill_text);
+  for (int i = 0; i < 3; ++i)
+    service().take(QStringLiteral("picture"), std::make_shared<const GrayImage>(picture(2 + i)));
+  window_->session().selectCampaign(second);
+  EXPECT_EQ(incomingJournal(*window_->session().session(), first).size(), 3U);
+  EXPECT_EQ(incomingJournal(*window_->session().session(), second).size(), 0U);
+}
+
 TEST_F(CapturePages, ANewFiducialMeasurementFillsFromAWatchedFolder) {
   newMeasurement(mill_text);
   auto* page = go<NewCapturePage>(StepId::Capture);

@@ -25,6 +25,7 @@
 #include "core/connect/source.h"
 #include "core/control/private_control.h"
 #include "core/reporting/report_language.h"
+#include "core/session/session.h"
 #include "core/workflows/closed_loop_demo.h"
 #include "tests/core/control/stand_in_control.h"
 #include "tests/core/workflows/true_machine.h"
@@ -173,6 +174,22 @@ TEST_F(ClosedLoopPageTest, NothingMovesBeforeItIsConfirmedAndStopFadesToZero) {
   ASSERT_TRUE(waitFor([&] { return page_->callout()->tone() == Tone::Good; }, 10)) << said();
   EXPECT_GE(page_->service().snapshot().result.cycles.size(), cycles);
   EXPECT_TRUE(told(QStringLiteral("continues with")));
+}
+
+// An operator stands before it with a finger on Stop.
+TEST_F(ClosedLoopPageTest, StaysWhenTheCampaignIsReadAgain) {
+  auto session = std::make_unique<Session>(Session::create(folder_ / "session"));
+  const std::int64_t id =
+      session->newCampaign("new", "2026-01-31T08:00:00Z",
+                           R"({"format":"spindrift-machine","version":1,"name":"mill","chain":"V [w-X'-Y'-b-Z-(C)-t]",
+"axes":[{"name":"X","travel_mm":[0,300]},{"name":"Y","travel_mm":[0,200]},{"name":"Z","travel_mm":[0,150]}]})");
+  window_->session().adopt(std::move(session), id);
+  window_->openLiveCompensation();
+  ASSERT_TRUE(page_->isVisible());
+  window_->session().setClockOffsets({{"log", {30.0, 2.0, "by hand"}}});
+  EXPECT_TRUE(page_->isVisible()) << "a recording that ends does this";
+  window_->session().selectCampaign(id);
+  EXPECT_FALSE(page_->isVisible()) << "who chooses a campaign wants to see it";
 }
 
 TEST_F(ClosedLoopPageTest, ALostControlIsSaid) {
