@@ -30,8 +30,8 @@ CaptureVerdict judgeCapture(const GrayImage& image, bool focus_series, const Fid
     verdict.good = verdict.focus.normalised > 0.0;
     verdict.sentence =
         !verdict.good ? "No structure is in view."
-        : count > 0 ? fmt::format("Sharpness {:.3f}, {} decoded.", verdict.focus.normalised, countOf(count, "ellipse"))
-                    : fmt::format("Sharpness {:.3f}.", verdict.focus.normalised);
+        : count > 0 ? fmt::format("Sharpness {:.3g}, {} decoded.", verdict.focus.normalised, countOf(count, "ellipse"))
+                    : fmt::format("Sharpness {:.3g}.", verdict.focus.normalised);
     return verdict;
   }
   if (!verdict.decoded.usable()) {

@@ -31,14 +31,19 @@ bool spreadsOverTheTable(const ObservationSet& observations) {
 /// The table of the nine parameters: value, uncertainty, meaning.
 void addFittedParameters(Report& document, const NineParameterFit& fit, const std::string& state) {
   std::vector<ReportRow> rows;
-  const nlohmann::json json = toJson(fit);
-  for (const auto& [name, parameter] : json.at("parameters").items()) {
+  const nlohmann::json parameters = toJson(fit).at("parameters");
+  // In the order of the table of all parameters, which is that of the window.
+  for (const ErrorParameter& known_parameter : errorParameters()) {
+    const std::string& name = known_parameter.name;
+    if (!parameters.contains(name)) continue;
+    const nlohmann::json& parameter = parameters.at(name);
     const bool known = parameter.is_object() && parameter.at("value").is_number();
-    rows.push_back({titleWithUnit(name), describedParameter(name).iso_symbol,
+    rows.push_back({fmt::format("{} / {}", known_parameter.symbol, printedUnit(known_parameter.unit)),
+                    known_parameter.iso_symbol,
                     known ? withUncertainty(parameter.at("value").get<double>(),
                                             parameter.at("standard_uncertainty").get<double>(), "")
                           : std::string("not determined"),
-                    parameterMeaning(name)});
+                    known_parameter.meaning});
   }
   document.table({"Parameter", "ISO 230-1", "Value ± standard uncertainty", "Meaning"}, rows,
                  fmt::format("Nine-parameter model of {}", state));

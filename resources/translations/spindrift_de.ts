@@ -994,7 +994,7 @@
     </message>
     <message>
         <source>Check whether the instrument had settled.</source>
-        <translation>Prüfen, ob das Messgerät eingelaufen war.</translation>
+        <translation>Prüfen, ob das Messgerät thermisch stabil war.</translation>
     </message>
     <message>
         <source>Complete: {} points in {} profiles.</source>
@@ -1086,7 +1086,7 @@
     </message>
     <message>
         <source>Feed motion and the room heat the ball screw; it grows away from its fixed bearing and takes the nut with it.</source>
-        <translation>Vorschubbewegung und Raum erwärmen den Kugelgewindetrieb; er wächst von seinem Festlager weg und nimmt die Mutter mit.</translation>
+        <translation>Vorschubbewegung und Raum erwärmen den Kugelgewindetrieb; er dehnt sich von seinem Festlager weg aus und nimmt die Mutter mit.</translation>
     </message>
     <message>
         <source>Fewer than 100 points are left after edges and outliers have been removed.</source>
@@ -1110,7 +1110,7 @@
     </message>
     <message>
         <source>Guideways, drives and the room heat the table, which grows away from its centre in both directions; measured points move outwards under the tool.</source>
-        <translation>Führungen, Antriebe und Raum erwärmen den Tisch, der von seinem Zentrum in beide Richtungen wächst; gemessene Punkte wandern unter dem Werkzeug nach außen.</translation>
+        <translation>Führungen, Antriebe und Raum erwärmen den Tisch, der sich von seinem Zentrum in beide Richtungen ausdehnt; gemessene Punkte wandern unter dem Werkzeug nach außen.</translation>
     </message>
     <message>
         <source>G{:g} is not allowed here</source>
@@ -1246,11 +1246,11 @@
     </message>
     <message>
         <source>LinuxCNC screw compensation of {}</source>
-        <translation>LinuxCNC-Spindelsteigungskompensation von {}</translation>
+        <translation>LinuxCNC-Spindelsteigungsfehlerkompensation von {}</translation>
     </message>
     <message>
         <source>LinuxCNC screw compensation of {}, as a trim</source>
-        <translation>LinuxCNC-Spindelsteigungskompensation von {}, als Trimm</translation>
+        <translation>LinuxCNC-Spindelsteigungsfehlerkompensation von {}, als Trimmdatei</translation>
     </message>
     <message>
         <source>Machine of the plant, as of {}</source>
@@ -1473,14 +1473,6 @@
         <translation>Die Abweichungen in jedem Zyklus trennen.</translation>
     </message>
     <message>
-        <source>Sharpness {:.3f}, {} decoded.</source>
-        <translation>Schärfe {:.3f}, {} decodiert.</translation>
-    </message>
-    <message>
-        <source>Sharpness {:.3f}.</source>
-        <translation>Schärfe {:.3f}.</translation>
-    </message>
-    <message>
         <source>Siemens measuring system error compensation of {}</source>
         <translation>Siemens-Messsystemfehlerkompensation von {}</translation>
     </message>
@@ -1562,7 +1554,7 @@
     </message>
     <message>
         <source>The artefact warms with the table or the room and grows away from its reference feature.</source>
-        <translation>Der Prüfkörper erwärmt sich mit dem Tisch oder dem Raum und wächst von seinem Referenzmerkmal weg.</translation>
+        <translation>Der Prüfkörper erwärmt sich mit dem Tisch oder dem Raum und dehnt sich von seinem Referenzmerkmal weg aus.</translation>
     </message>
     <message>
         <source>The artefact&apos;s corner lies at {} = {:g} mm; allowed: the travel, {:g} to {:g} mm.</source>
@@ -1638,7 +1630,7 @@
     </message>
     <message>
         <source>The column warms as a whole and grows from its base: the head rises, more so the higher it stands on the column.</source>
-        <translation>Der Ständer erwärmt sich als Ganzes und wächst von seinem Fuß aus: der Spindelkopf steigt, umso mehr, je höher er am Ständer steht.</translation>
+        <translation>Der Ständer erwärmt sich als Ganzes und dehnt sich von seinem Fuß nach oben aus: der Spindelkopf steigt, umso mehr, je höher er am Ständer steht.</translation>
     </message>
     <message>
         <source>The compensator cannot run this model: {}</source>
@@ -1778,7 +1770,7 @@
     </message>
     <message>
         <source>The linear scale warms with the room and grows away from its datum; the axis follows the scale.</source>
-        <translation>Das Längenmesssystem erwärmt sich mit dem Raum und wächst von seinem Nullpunkt weg; die Achse folgt dem Maßstab.</translation>
+        <translation>Das Längenmesssystem erwärmt sich mit dem Raum und dehnt sich von seinem Nullpunkt weg aus; die Achse folgt dem Maßstab.</translation>
     </message>
     <message>
         <source>The log has a gap of {:.0f} s after {:.0f} s: what the machine did in it is not known, and {} observations between {:.0f} s and {:.0f} s, until its heat has gone, are not compared.</source>
@@ -1998,7 +1990,7 @@
     </message>
     <message>
         <source>The rotary table warms and grows away from its centre.</source>
-        <translation>Der Drehtisch erwärmt sich und wächst von seinem Zentrum weg.</translation>
+        <translation>Der Drehtisch erwärmt sich und dehnt sich von seinem Zentrum weg aus.</translation>
     </message>
     <message>
         <source>The rotary table warms unevenly and rotates about its centre.</source>
@@ -5183,12 +5175,8 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>nichts Protokolliertes</translation>
     </message>
     <message>
-        <source>nothing of this state was held out: how the correction does elsewhere is not known</source>
-        <translation>von diesem Zustand gibt es keine Validierungsdaten: wie die Korrektur anderswo wirkt, ist nicht bekannt</translation>
-    </message>
-    <message>
         <source>Nothing was measured along {}: no component error of that axis is stated, and there is no screw compensation for it.</source>
-        <translation>Entlang {} wurde nichts gemessen: keine Komponentenabweichung dieser Achse wird angegeben, und es gibt keine Spindelsteigungskompensation für sie.</translation>
+        <translation>Entlang {} wurde nichts gemessen: keine Komponentenabweichung dieser Achse wird angegeben, und es gibt keine Spindelsteigungsfehlerkompensation für sie.</translation>
     </message>
     <message>
         <source>nut {}</source>
@@ -5880,7 +5868,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>The centre of rotation is not the same everywhere ({}): {} is used. The microscope has moved in the spindle or had not settled.</source>
-        <translation>Das Drehzentrum ist nicht überall dasselbe ({}): verwendet wird {}. Das Mikroskop hat sich in der Spindel bewegt oder war nicht eingelaufen.</translation>
+        <translation>Das Drehzentrum ist nicht überall dasselbe ({}): verwendet wird {}. Das Mikroskop hat sich in der Spindel bewegt oder war nicht thermisch stabil.</translation>
     </message>
     <message>
         <source>the change from state {} to {}</source>
@@ -7135,10 +7123,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>{:.2f} {} in {} bei {}, {:.0f} s</translation>
     </message>
     <message>
-        <source>{:.3f} before, {:.3f} after over all rows, </source>
-        <translation>{:.3f} vorher, {:.3f} nachher über alle Zeilen, </translation>
-    </message>
-    <message>
         <source>{:g} h of machine time; allowed: 0.5 to 48 h.</source>
         <translation>{:g} h Maschinenzeit; zulässig: 0,5 bis 48 h.</translation>
     </message>
@@ -7884,7 +7868,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>{} seems to have grown by {} in {}, but its expansion coefficient and temperature say {}: the axis that measures it grows as well, the expansion coefficient is wrong, or the sensor is not on the artefact.</source>
-        <translation>{} ist anscheinend um {} in {} gewachsen, aber Ausdehnungskoeffizient und Temperatur ergeben {}: die messende Achse wächst ebenfalls, der Ausdehnungskoeffizient ist falsch, oder der Sensor sitzt nicht auf dem Prüfkörper.</translation>
+        <translation>{} hat sich anscheinend um {} in {} ausgedehnt, aber Ausdehnungskoeffizient und Temperatur ergeben {}: die messende Achse dehnt sich ebenfalls aus, der Ausdehnungskoeffizient ist falsch, oder der Sensor sitzt nicht auf dem Prüfkörper.</translation>
     </message>
     <message>
         <source>{} sends a document that is not XML.</source>
@@ -9386,7 +9370,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>E{0} was not measured: no correction of {0} is stated, and there is no screw compensation for it.</source>
-        <translation>E{0} wurde nicht gemessen: Für {0} wird keine Korrektur angegeben, und es gibt dafür keine Spindelsteigungskompensation.</translation>
+        <translation>E{0} wurde nicht gemessen: Für {0} wird keine Korrektur angegeben, und es gibt dafür keine Spindelsteigungsfehlerkompensation.</translation>
     </message>
     <message>
         <source>a number from -1 to 1</source>
@@ -9586,7 +9570,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>Checking whether the instrument had settled</source>
-        <translation>Es wird geprüft, ob das Messgerät eingelaufen war</translation>
+        <translation>Es wird geprüft, ob das Messgerät thermisch stabil war</translation>
     </message>
     <message>
         <source>the check of the warm-up</source>
@@ -9774,7 +9758,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>Not settled: drift of more than {} µm/h: {}.</source>
-        <translation>Nicht eingelaufen: Drift von mehr als {} µm/h: {}.</translation>
+        <translation>Nicht thermisch stabil: Drift von mehr als {} µm/h: {}.</translation>
     </message>
     <message>
         <source>beyond the record</source>
@@ -11599,6 +11583,66 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>The first {:.1f} h of the training are left out: the machine still followed what was before the record, and models without them predict the rest of the training with less than half of the error.</source>
         <translation>Die ersten {:.1f} h des Trainings sind ausgelassen: Die Maschine folgte noch dem, was vor der Aufzeichnung war, und Modelle ohne sie sagen den Rest des Trainings mit weniger als der Hälfte der Abweichung voraus.</translation>
+    </message>
+    <message>
+        <source>The simulation has {:.0f} ± {:.0f} % too {} of {}: no more than a rough simulation may be off by, so it is taken as its error and not for {}.</source>
+        <translation>Die Simulation hat {:.0f} ± {:.0f} % zu {} von {}: nicht mehr, als eine grobe Simulation abweichen darf; dies gilt als ihr Fehler und nicht als {}.</translation>
+    </message>
+    <message>
+        <source>{} of the simulation, off by {:.0f} %, would explain it as well</source>
+        <translation>{} der Simulation, um {:.0f} % falsch, würde es ebenso gut erklären</translation>
+    </message>
+    <message>
+        <source>Sharpness {:.3g}, {} decoded.</source>
+        <translation>Schärfe {:.3g}, {} decodiert.</translation>
+    </message>
+    <message>
+        <source>Sharpness {:.3g}.</source>
+        <translation>Schärfe {:.3g}.</translation>
+    </message>
+    <message>
+        <source>Cycle {} of {} holds the positions of cycle {} digit for digit: a copy is no second measurement; remove it or measure again.</source>
+        <translation>Messzyklus {} von {} enthält Ziffer für Ziffer die Positionen von Messzyklus {}: Eine Kopie ist keine zweite Messung; entfernen oder neu messen.</translation>
+    </message>
+    <message>
+        <source>No touch of {} checks another, so that nothing is known of the noise of a touch: {:g} µm is assumed.</source>
+        <translation>Keine Antastung von {} prüft eine andere, daher ist über das Rauschen einer Antastung nichts bekannt: {:g} µm werden angenommen.</translation>
+    </message>
+    <message>
+        <source>the log runs from {:.6g} to {:.6g} s, but the artefact was touched at {:.6g} s; allowed: a log of that time (a clock offset moves it).</source>
+        <translation>Das Protokoll reicht von {:.6g} bis {:.6g} s, aber der Prüfkörper wurde bei {:.6g} s angetastet; zulässig: ein Protokoll dieser Zeit (ein Uhrenversatz verschiebt es).</translation>
+    </message>
+    <message>
+        <source>the sign differs: the probe shows less where the reference shows more</source>
+        <translation>das Vorzeichen ist verschieden: Der Taster zeigt weniger, wo die Referenz mehr zeigt</translation>
+    </message>
+    <message>
+        <source>the temperature of the artefact is {:g} °C at {:.6g} s; allowed: {:g} to {:g} °C (kelvin, degrees Fahrenheit, or the value of a broken sensor?).</source>
+        <translation>Die Temperatur des Prüfkörpers ist {:g} °C bei {:.6g} s; zulässig: {:g} bis {:g} °C (Kelvin, Grad Fahrenheit oder der Wert eines defekten Sensors?).</translation>
+    </message>
+    <message>
+        <source>they differ beyond their uncertainty in {:.0f} % of the cycles</source>
+        <translation>sie unterscheiden sich in {:.0f} % der Messzyklen um mehr als ihre Unsicherheit</translation>
+    </message>
+    <message>
+        <source>{} holds the same bytes as {}: a copy is no second measurement.</source>
+        <translation>{} hat denselben Inhalt wie {}: Eine Kopie ist keine zweite Messung.</translation>
+    </message>
+    <message>
+        <source>nothing was held out: how the correction does elsewhere is not known</source>
+        <translation>es gibt keine Validierungsdaten: Wie die Korrektur anderswo wirkt, ist nicht bekannt</translation>
+    </message>
+    <message>
+        <source>readings held out in other states</source>
+        <translation>Validierungsdaten anderer Zustände</translation>
+    </message>
+    <message>
+        <source>{:.3f} before, {:.3f} after over all rows (about the mean of the rows that trained the model), </source>
+        <translation>{:.3f} vorher, {:.3f} nachher über alle Zeilen (um den Mittelwert der Zeilen, mit denen das Modell angepasst wurde), </translation>
+    </message>
+    <message>
+        <source>{}it was judged on rows that trained it, which shows nothing of new data</source>
+        <translation>{}es wurde an Zeilen beurteilt, mit denen es angepasst wurde; das zeigt nichts über neue Daten</translation>
     </message>
 </context>
 <context>
@@ -14834,7 +14878,7 @@ ihrem Ordner und führen nicht hinaus.
     </message>
     <message>
         <source>&lt;i&gt;d(t) = a + b (1 − exp(−t / τ)),&#xa0; settled when |b| / τ · exp(−t / τ) &amp;lt; 1 µm/h&lt;/i&gt;</source>
-        <translation>&lt;i&gt;d(t) = a + b (1 − exp(−t / τ)),&#xa0; eingelaufen, wenn |b| / τ · exp(−t / τ) &amp;lt; 1 µm/h&lt;/i&gt;</translation>
+        <translation>&lt;i&gt;d(t) = a + b (1 − exp(−t / τ)),&#xa0; thermisch stabil, wenn |b| / τ · exp(−t / τ) &amp;lt; 1 µm/h&lt;/i&gt;</translation>
     </message>
     <message>
         <source>&lt;i&gt;deviation = actual − commanded position of the tool relative to the table&lt;/i&gt;</source>
@@ -15198,7 +15242,7 @@ ihrem Ordner und führen nicht hinaus.
     </message>
     <message>
         <source>settled</source>
-        <translation>eingelaufen</translation>
+        <translation>thermisch stabil</translation>
     </message>
     <message>
         <source>signed</source>
@@ -15242,7 +15286,7 @@ ihrem Ordner und führen nicht hinaus.
     </message>
     <message>
         <source>An instrument that is still warming up measures itself. Measure one point every 5 minutes, then press &lt;b&gt;Check the drift&lt;/b&gt;: its fit says whether the instrument has settled.</source>
-        <translation>Ein Messgerät, das noch warm wird, misst sich selbst. Alle 5 Minuten einen Punkt messen, dann &lt;b&gt;Drift prüfen&lt;/b&gt; drücken: ihre Anpassung sagt, ob das Messgerät eingelaufen ist.</translation>
+        <translation>Ein Messgerät, das noch warm wird, misst sich selbst. Alle 5 Minuten einen Punkt messen, dann &lt;b&gt;Drift prüfen&lt;/b&gt; drücken: ihre Anpassung sagt, ob das Messgerät thermisch stabil ist.</translation>
     </message>
     <message>
         <source>Fanuc: public documents do not say which way a positive value of the pitch error data moves the axis. Try it once, as the choice &lt;i&gt;Fanuc&lt;/i&gt; describes, and state it; then the data are written.</source>
@@ -15679,10 +15723,10 @@ ihrem Ordner und führen nicht hinaus.
         <translation> Und %1 weitere.</translation>
     </message>
     <message numerus="yes">
-        <source>Watching %1: %n files, %2 accepted. Capturing goes on when this page is left.</source>
+        <source>Watching the folder %1: %n files, %2 accepted. Capturing goes on when this page is left.</source>
         <translation>
-            <numerusform>Überwacht wird %1: %n Datei, %2 angenommen. Die Aufnahme läuft weiter, wenn diese Seite verlassen wird.</numerusform>
-            <numerusform>Überwacht wird %1: %n Dateien, %2 angenommen. Die Aufnahme läuft weiter, wenn diese Seite verlassen wird.</numerusform>
+            <numerusform>Der Ordner %1 wird überwacht: %n Datei, %2 angenommen. Die Aufnahme läuft weiter, wenn diese Seite verlassen wird.</numerusform>
+            <numerusform>Der Ordner %1 wird überwacht: %n Dateien, %2 angenommen. Die Aufnahme läuft weiter, wenn diese Seite verlassen wird.</numerusform>
         </translation>
     </message>
 </context>
@@ -16337,6 +16381,10 @@ ihrem Ordner und führen nicht hinaus.
             <numerusform>%n Scan, sechs Abweichungen, relativ zum ersten Scan seines Prüfkörpers.</numerusform>
             <numerusform>%n Scans, je sechs Abweichungen, relativ zum ersten Scan ihres Prüfkörpers.</numerusform>
         </translation>
+    </message>
+    <message>
+        <source>in the noise</source>
+        <translation>im Rauschen</translation>
     </message>
 </context>
 <context>
@@ -17339,10 +17387,6 @@ ihrem Ordner und führen nicht hinaus.
         <translation>An nicht zur Anpassung verwendeten Werten: %1.</translation>
     </message>
     <message>
-        <source>%1 where nothing was fitted</source>
-        <translation>%1, wo nichts angepasst wurde</translation>
-    </message>
-    <message>
         <source>fitted values; noise included</source>
         <translation>angepasste Werte; einschließlich Rauschen</translation>
     </message>
@@ -17431,6 +17475,10 @@ ihrem Ordner und führen nicht hinaus.
     <message>
         <source>No file was written. %1</source>
         <translation>Es wurde keine Datei geschrieben. %1</translation>
+    </message>
+    <message>
+        <source>where nothing was fitted; %1 at what was</source>
+        <translation>wo nichts angepasst wurde; %1 an Angepasstem</translation>
     </message>
 </context>
 <context>
@@ -19684,6 +19732,10 @@ ihrem Ordner und führen nicht hinaus.
         <source>Leave what is chosen in the list out of the evaluation; it stays on the disk and can be brought back</source>
         <translation>Lässt das in der Liste Gewählte bei der Auswertung aus; es bleibt auf der Platte und kann zurückgeholt werden</translation>
     </message>
+    <message>
+        <source>Changed since: %1. Check the captures again.</source>
+        <translation>Seitdem geändert: %1. Die Aufnahmen erneut prüfen.</translation>
+    </message>
 </context>
 <context>
     <name>spindrift::gui::FieldsDialog</name>
@@ -20544,7 +20596,7 @@ ihrem Ordner und führen nicht hinaus.
     </message>
     <message>
         <source>No resolution is stated for %1: verdicts against the resolution are left out.</source>
-        <translation>Für %1 ist keine Auflösung angegeben: Urteile gegen die Auflösung entfallen.</translation>
+        <translation>Für %1 ist keine Auflösung angegeben: Der Vergleich mit der Auflösung entfällt.</translation>
     </message>
     <message>
         <source>No fixed bearing is stated for the %1 ball screw: its expansion has no reference.</source>
@@ -25259,14 +25311,6 @@ ihrem Ordner und führen nicht hinaus.
         <translation>Antastungen des Zyklus</translation>
     </message>
     <message>
-        <source>State of the touches</source>
-        <translation>Zustand der Antastungen</translation>
-    </message>
-    <message>
-        <source>All states</source>
-        <translation>Alle Zustände</translation>
-    </message>
-    <message>
         <source>Plausible</source>
         <translation>Plausibel</translation>
     </message>
@@ -25279,10 +25323,6 @@ ihrem Ordner und führen nicht hinaus.
         <translation>Antastung</translation>
     </message>
     <message>
-        <source>State</source>
-        <translation>Zustand</translation>
-    </message>
-    <message>
         <source>Residual / µm</source>
         <translation>Residuum / µm</translation>
     </message>
@@ -25293,10 +25333,6 @@ ihrem Ordner und führen nicht hinaus.
     <message>
         <source>Towards</source>
         <translation>In Richtung</translation>
-    </message>
-    <message>
-        <source>No touch of this cycle has this state.</source>
-        <translation>Keine Antastung dieses Zyklus hat diesen Zustand.</translation>
     </message>
     <message>
         <source>Exclude …</source>
@@ -25428,6 +25464,22 @@ ihrem Ordner und führen nicht hinaus.
             <numerusform>%n Antastung von unten ist ausgelassen, wo der Stift einer Kugel sein kann.</numerusform>
             <numerusform>%n Antastungen von unten sind ausgelassen, wo der Stift einer Kugel sein kann.</numerusform>
         </translation>
+    </message>
+    <message>
+        <source>Verdict on the touches</source>
+        <translation>Urteil über die Antastungen</translation>
+    </message>
+    <message>
+        <source>All verdicts</source>
+        <translation>Alle Urteile</translation>
+    </message>
+    <message>
+        <source>Verdict</source>
+        <translation>Urteil</translation>
+    </message>
+    <message>
+        <source>No touch of this cycle has this verdict.</source>
+        <translation>Keine Antastung dieses Messzyklus hat dieses Urteil.</translation>
     </message>
 </context>
 <context>
@@ -26359,7 +26411,7 @@ ihrem Ordner und führen nicht hinaus.
     </message>
     <message>
         <source>Measure one point every 5 minutes while the instrument warms up: its drift shows when it has settled.</source>
-        <translation>Während das Messgerät warm wird, alle 5 Minuten einen Punkt messen: seine Drift zeigt, wann es eingelaufen ist.</translation>
+        <translation>Während das Messgerät warm wird, alle 5 Minuten einen Punkt messen: seine Drift zeigt, wann es thermisch stabil ist.</translation>
     </message>
     <message>
         <source>Axis</source>
@@ -26455,7 +26507,7 @@ ihrem Ordner und führen nicht hinaus.
     </message>
     <message>
         <source>settled</source>
-        <translation>eingelaufen</translation>
+        <translation>thermisch stabil</translation>
     </message>
     <message>
         <source>Deviation of %1 / µm</source>
@@ -26795,10 +26847,6 @@ ihrem Ordner und führen nicht hinaus.
         <translation>Effekt</translation>
     </message>
     <message>
-        <source>State</source>
-        <translation>Zustand</translation>
-    </message>
-    <message>
         <source>Gain in BIC</source>
         <translation>Gewinn in BIC</translation>
     </message>
@@ -27034,6 +27082,10 @@ ihrem Ordner und führen nicht hinaus.
         <source>What the effects explain</source>
         <translation>Was die Effekte erklären</translation>
     </message>
+    <message>
+        <source>Verdict</source>
+        <translation>Urteil</translation>
+    </message>
 </context>
 <context>
     <name>spindrift::gui::WherePanel</name>
@@ -27048,10 +27100,6 @@ ihrem Ordner und führen nicht hinaus.
     <message>
         <source>Points</source>
         <translation>Punkte</translation>
-    </message>
-    <message>
-        <source>When</source>
-        <translation>Zeitpunkt</translation>
     </message>
     <message>
         <source>Excess</source>
@@ -27209,6 +27257,14 @@ ihrem Ordner und führen nicht hinaus.
         <source>More than the noise allows: at one of the places above, or over all of the time</source>
         <translation>Mehr, als das Rauschen zulässt: an einer der Stellen oben oder über die ganze Zeit</translation>
     </message>
+    <message>
+        <source>Condition</source>
+        <translation>Bedingung</translation>
+    </message>
+    <message>
+        <source>No more than noise may add up to at a point among so many</source>
+        <translation>Nicht mehr, als Rauschen an einem von so vielen Punkten ausmachen kann</translation>
+    </message>
 </context>
 <context>
     <name>spindrift::gui::Workflow</name>
@@ -27258,7 +27314,7 @@ ihrem Ordner und führen nicht hinaus.
     </message>
     <message>
         <source>Wait until the instrument has settled; until then its drift would be mistaken for drift of the machine.</source>
-        <translation>Warten, bis das Messgerät eingelaufen ist; bis dahin würde seine Drift für Drift der Maschine gehalten.</translation>
+        <translation>Warten, bis das Messgerät thermisch stabil ist; bis dahin würde seine Drift für Drift der Maschine gehalten.</translation>
     </message>
     <message>
         <source>Take every capture of the plan, and repeat those that fail the check while you are at the machine.</source>

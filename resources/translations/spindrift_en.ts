@@ -21,10 +21,10 @@
 <context>
     <name>spindrift::gui::ArrivingPanel</name>
     <message numerus="yes">
-        <source>Watching %1: %n files, %2 accepted. Capturing goes on when this page is left.</source>
+        <source>Watching the folder %1: %n files, %2 accepted. Capturing goes on when this page is left.</source>
         <translation>
-            <numerusform>Watching %1: %n file, %2 accepted. Capturing goes on when this page is left.</numerusform>
-            <numerusform>Watching %1: %n files, %2 accepted. Capturing goes on when this page is left.</numerusform>
+            <numerusform>Watching the folder %1: %n file, %2 accepted. Capturing goes on when this page is left.</numerusform>
+            <numerusform>Watching the folder %1: %n files, %2 accepted. Capturing goes on when this page is left.</numerusform>
         </translation>
     </message>
 </context>

@@ -132,7 +132,8 @@ TEST_F(Thermal, IsoTestTakesARangeAndAWindow) {
   const nlohmann::json single = jsonOf(one);
   EXPECT_GT(single["components"][0]["standard_uncertainty"].get<double>(),
             1.3 * level["components"][0]["standard_uncertainty"].get<double>());
-  EXPECT_GT(single["components"][0]["range"].get<double>(), level["components"][0]["range"].get<double>());
+  // What noise adds to the range of single readings is taken off.
+  EXPECT_NEAR(single["components"][0]["range"].get<double>(), level["components"][0]["range"].get<double>(), 0.5);
   one.back() = "-1";
   expectBadInput(one, {"--window"});
 }

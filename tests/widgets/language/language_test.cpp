@@ -300,8 +300,9 @@ TEST_F(LanguageTest, ValuesOfASentenceAreTranslatedAndNumbersWrittenAsTheLanguag
       coreSentence(
           "Not settled: drift of more than 0.5 µm/h: EX 0.9 ± 0.1 µm/h and EY 3 ± 1 µm/h. Not decidable yet: EZ 0.3 "
           "± 0.8 µm/h."),
-      QStringLiteral("Nicht eingelaufen: Drift von mehr als 0,5 µm/h: EX 0,9 ± 0,1 µm/h und EY 3 ± 1 µm/h. Noch nicht "
-                     "entscheidbar: EZ 0,3 ± 0,8 µm/h."));
+      QStringLiteral(
+          "Nicht thermisch stabil: Drift von mehr als 0,5 µm/h: EX 0,9 ± 0,1 µm/h und EY 3 ± 1 µm/h. Noch nicht "
+          "entscheidbar: EZ 0,3 ± 0,8 µm/h."));
   EXPECT_EQ(coreSentence("Point \"Q\" was not measured in state M1; allowed: M0."),
             QStringLiteral("Punkt „Q“ wurde in Zustand M1 nicht gemessen; zulässig: M0."))
       << "a sentence that begins with a capital where its format does not";

@@ -173,6 +173,7 @@ std::span<const char* const> spindrift::gui::core_formats::scanning() noexcept {
     QT_TRANSLATE_NOOP("core", "{} holds no points."),
     QT_TRANSLATE_NOOP("core", "{} holds no smooth surface: only {:.0f} of {} points agree with their neighbours."),
     QT_TRANSLATE_NOOP("core", "{} holds only {} points; at least {} are needed."),
+    QT_TRANSLATE_NOOP("core", "{} holds the same bytes as {}: a copy is no second measurement."),
     QT_TRANSLATE_NOOP("core", "{} holds two separate surfaces ({}); allowed: one artefact per cloud."),
     QT_TRANSLATE_NOOP("core", "{} is a straight line: its points determine no surface."),
     QT_TRANSLATE_NOOP("core", "{} is not ordered in profiles; a calibration needs the scan as it was measured."),

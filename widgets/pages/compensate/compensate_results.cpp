@@ -56,18 +56,21 @@ void CompensatePage::showPlan() {
                                         sizeText(*plan_->rms_before_unseen_um, um), coreSentence(plan_->unseen))
                              : coreSentence(plan_->unseen);
   after_->setToolTip(onScreen(tr("On data not used for fitting: %1.").arg(unseen)));
-  after_->set(sizeText(plan_->rms_after_um, um),
-              plan_->rms_after_unseen_um
-                  ? tr("%1 where nothing was fitted").arg(sizeText(*plan_->rms_after_unseen_um, um))
-                  : tr("fitted values; noise included"),
-              plan_->rms_after_um < plan_->rms_before_um ? Tone::Good : Tone::Attention);
+  if (plan_->rms_after_unseen_um) {
+    after_->set(sizeText(*plan_->rms_after_unseen_um, um),
+                tr("where nothing was fitted; %1 at what was").arg(sizeText(plan_->rms_after_um, um)),
+                *plan_->rms_after_unseen_um < *plan_->rms_before_unseen_um ? Tone::Good : Tone::Attention);
+  } else {
+    after_->set(sizeText(plan_->rms_after_um, um), tr("fitted values; noise included"),
+                plan_->rms_after_um < plan_->rms_before_um ? Tone::Good : Tone::Attention);
+  }
   expected_->set(QStringLiteral("± ") + sizeText(plan_->rms_sigma_um, um), tr("one standard uncertainty, rms"));
   largest_->set(sizeText(plan_->largest_um, um), tr("length of the vector at a point"));
   QString text = coreSentence(plan_->model) + QLatin1Char('.');
   if (request().source == CompensationSource::CompletedModel) {
-    text = tr("Simulation completed by %1.").arg(effectTitles(request().added, tr("and")));
+    text = tr("Simulation completed by %1.").arg(effectTitles(request().added, tr("and"))) + QLatin1Char(' ') +
+           tr("Relative to %1.").arg(coreSentence(plan_->reference));
   }
-  text += QLatin1Char(' ') + tr("Relative to %1.").arg(coreSentence(plan_->reference));
   if (!plan_->limitation.empty()) text += QLatin1Char(' ') + coreSentence(plan_->limitation);
   model_->setText(onScreen(text));
   showPoints();

@@ -191,6 +191,8 @@ void FiducialCapturePage::refresh() {
       callout()->show(Tone::Accent, tr("%n captures are there and none is checked yet. Checking decodes every image "
                                        "and says which to take again.",
                                        nullptr, static_cast<int>(captures_.size())));
+    } else if (const ResultState check = session().state("check"); check.there && !check.current) {
+      callout()->show(Tone::Outdated, tr("Changed since: %1. Check the captures again.").arg(check.changed));
     } else if (!bad.empty()) {
       showBad(bad);
     } else {

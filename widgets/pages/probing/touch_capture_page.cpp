@@ -64,12 +64,12 @@ TouchCapturePage::TouchCapturePage(PageContext page_context, QWidget* parent)
   auto* filters = new QHBoxLayout;
   filters->addWidget(makeLabel(tr("Touches of the cycle"), "sectionTitle"), 1);
   state_filter_ = new QComboBox;
-  state_filter_->setAccessibleName(tr("State of the touches"));
-  state_filter_->addItems({tr("All states"), tr("Plausible"), tr("Rejected"), tr("Excluded"), tr("Missing")});
+  state_filter_->setAccessibleName(tr("Verdict on the touches"));
+  state_filter_->addItems({tr("All verdicts"), tr("Plausible"), tr("Rejected"), tr("Excluded"), tr("Missing")});
   filters->addWidget(state_filter_);
   list->body()->addLayout(filters);
-  touches_ = new RowsModel({tr("Touch"), tr("State"), tr("Residual / µm"), tr("Station"), tr("Towards")}, this);
-  touch_table_ = makeTable(touches_, tr("Touches"), tr("No touch of this cycle has this state."));
+  touches_ = new RowsModel({tr("Touch"), tr("Verdict"), tr("Residual / µm"), tr("Station"), tr("Towards")}, this);
+  touch_table_ = makeTable(touches_, tr("Touches"), tr("No touch of this cycle has this verdict."));
   touch_table_->setSelectionMode(QAbstractItemView::ExtendedSelection);
   list->body()->addWidget(touch_table_, 4);
   reason_ = new Callout;

@@ -261,8 +261,10 @@ void AxisErrorsPage::showValues(const ScanEvaluation& evaluation) {
     row.cells.push_back(quantityCell(artefact.first, artefact.second));
     const auto why = std::find_if(s.not_observed.begin(), s.not_observed.end(),
                                   [&](const auto& n) { return static_cast<int>(n.first) == c; });
-    row.cells.push_back(why == s.not_observed.end() ? toneCell(tr("yes"), Tone::Good)
-                                                    : toneCell(tr("no"), Tone::Attention));
+    // What is less than twice its uncertainty was looked for and not seen.
+    row.cells.push_back(why != s.not_observed.end()                        ? toneCell(tr("no"), Tone::Attention)
+                        : std::abs(artefact.first) < 2.0 * artefact.second ? toneCell(tr("in the noise"), Tone::Neutral)
+                                                                           : toneCell(tr("yes"), Tone::Good));
     if (why != s.not_observed.end()) row.cells.back().tip = fromCore(why->second);
     rows.push_back(std::move(row));
   }

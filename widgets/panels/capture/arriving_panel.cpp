@@ -174,10 +174,11 @@ void ArrivingPanel::refresh() {
   if (!service_.problem().isEmpty()) {
     state_->show(Tone::Bad, service_.problem());
   } else if (service_.running()) {
-    state_->show(Tone::Good, tr("Watching %1: %n files, %2 accepted. Capturing goes on when this page is left.",
-                                nullptr, static_cast<int>(items.size()))
-                                 .arg(QFileInfo(folder).fileName())
-                                 .arg(accepted));
+    state_->show(Tone::Good,
+                 tr("Watching the folder %1: %n files, %2 accepted. Capturing goes on when this page is left.", nullptr,
+                    static_cast<int>(items.size()))
+                     .arg(QFileInfo(folder).fileName())
+                     .arg(accepted));
   } else if (!folder.isEmpty()) {
     state_->show(Tone::Neutral, tr("Not watching. The last folder was %1; what arrived meanwhile is found when it is "
                                    "watched again.")

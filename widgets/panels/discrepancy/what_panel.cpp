@@ -39,7 +39,7 @@ WhatPanel::WhatPanel(QWidget* parent) : QWidget(parent) {
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(0, 8, 0, 0);
   auto* left = new Card(tr("Effects"));
-  effects_ = new RowsModel({tr("Effect"), tr("State"), tr("Gain in BIC")}, this);
+  effects_ = new RowsModel({tr("Effect"), tr("Verdict"), tr("Gain in BIC")}, this);
   effect_table_ = makeTable(effects_, tr("Effects found"), tr("Effects appear after the search."));
   stretchColumn(effect_table_, 0);
   left->body()->addWidget(effect_table_, 4);

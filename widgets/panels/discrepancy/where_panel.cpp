@@ -34,7 +34,7 @@ WherePanel::WherePanel(QWidget* parent) : QWidget(parent) {
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(0, 8, 0, 0);
   auto* left = new Card(tr("Places, the clearest first"));
-  places_ = new RowsModel({tr("What"), tr("Points"), tr("When"), tr("Excess"), tr("p")}, this);
+  places_ = new RowsModel({tr("What"), tr("Points"), tr("Condition"), tr("Excess"), tr("p")}, this);
   place_table_ = makeTable(places_, tr("Places where measured and simulated disagree"),
                            tr("Places where the residual exceeds the noise appear after the search."));
   stretchColumn(place_table_, 1);
@@ -234,6 +234,8 @@ void WherePanel::fillPoints() {
       beyond.tone = Tone::Attention;
       beyond.icon = "alert";
       beyond.tip = tr("More than the noise allows: at one of the places above, or over all of the time");
+    } else {
+      beyond.tip = tr("No more than noise may add up to at a point among so many");
     }
     row.cells = {name, rightCell(sizeText(s.rms_before, {})), rightCell(sizeText(s.rms_after, {})),
                  rightCell(sizeText(s.noise, {})), beyond};

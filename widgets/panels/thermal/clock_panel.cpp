@@ -110,9 +110,9 @@ void ClockPanel::estimate() {
            const CampaignClockOffset found = estimateFromMotion(*campaign, *set, source, longest_search_s);
            return [this, source, applied_s, found] {
              change(source, applied_s + found.offset_s, found.sigma_s, found.how);
-             message_->set(
-                 Tone::Good,
-                 tr("Offset of %1: %2.").arg(fromCore(source), quantityText(found.offset_s, found.sigma_s, tr("s"))));
+             message_->set(Tone::Good, tr("Offset of %1: %2.")
+                                           .arg(fromCore(source),
+                                                quantityText(applied_s + found.offset_s, found.sigma_s, tr("s"))));
            };
          } catch (const InputError& e) {
            return [this, sentence = coreSentence(e.what())] { message_->set(Tone::Attention, sentence); };
