@@ -337,7 +337,7 @@ DiscrepancyResult findDiscrepancy(const DiscrepancyInput& input, const Discrepan
                     "is told with "
                     "it: compare the clocks.",
                     std::abs(result.clock_offset_s) / 60.0, result.clock_offset_s > 0.0 ? "ahead of" : "behind"));
-  } else if (std::abs(analysis.clock_offset_s) > 30.0) {
+  } else if (std::abs(analysis.clock_offset_s + analysis.simulation_clock_s) > 30.0) {
     result.warnings.push_back(fmt::format(
         "The clock of the log is {:.0f} s {} that of the observations, as far as the data show it (± {:.0f} s).",
         std::abs(result.clock_offset_s), result.clock_offset_s > 0.0 ? "ahead of" : "behind",

@@ -353,8 +353,6 @@ void analyse(Analysis& a, const DiscrepancyInput& input, ResidualProblem& proble
     }
   }
   if (far != nullptr) {
-    // Weighed against roughness already.
-    std::erase_if(a.rough_parts, [&](const SimulationPart& part) { return part.id == far->id; });
     problem.setNuisances(nuisancesOf(priors.simulation_error));
     weigh(a, input, problem, options, priors, exact, &far->term, job);
     for (std::size_t t = 0; t < a.posterior.slots.size(); ++t)

@@ -672,7 +672,8 @@ Judgement judge(const ResidualProblem& problem, const EffectSearch& search, cons
     if (worst == terms.size()) break;
     takeBack(worst, "without the effects that cannot be named it breaks its sign or its bounds");
   }
-  // A weak one that may as well be a part of the simulation that is off by no more than a rough simulation may be.
+  // A weak one that may as well be a part of the simulation that is off by no more than a rough simulation may be. Of
+  // its own part the search has weighed that already.
   for (std::size_t k = out.names.size(); k-- > 0;) {
     if (out.names[k].forced || parts.empty()) continue;
     std::vector<ModelTerm> others = terms;
@@ -682,11 +683,9 @@ Judgement judge(const ResidualProblem& problem, const EffectSearch& search, cons
     std::vector<PartInstead> all;
     for (const SimulationPart& part : parts) all.push_back(partInstead(problem, part, left, priors));
     for (const PartInstead& p : all)
-      if (p.possible && (best == nullptr || p.evidence > best->evidence)) best = &p;
+      if (p.possible && p.id != out.names[k].id && (best == nullptr || p.evidence > best->evidence)) best = &p;
     if (best == nullptr || !(best->evidence > 0.0)) continue;
-    // Of the same cause the larger error is the answer where the data prefer it.
-    const double margin = best->id == out.names[k].id ? 0.0 : instead_as_well;
-    if (best->evidence + margin < out.names[k].delta_evidence) continue;
+    if (best->evidence + instead_as_well < out.names[k].delta_evidence) continue;
     out.warnings.push_back(
         fmt::format("The simulation has {:.0f} ± {:.0f} % too {} of {}: no more than a rough simulation may be off by, "
                     "so it is taken "

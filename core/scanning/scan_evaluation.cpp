@@ -159,38 +159,13 @@ void ScanFrame::intoMachine(ScanResult& result) const {
   }
 }
 
-/// Which earlier capture a file is a copy of. Scans are of one size where the profiler gives a grid, so that the
-/// beginning decides; all of it is read only where that agrees.
-std::vector<std::optional<std::size_t>> copies(const Campaign& campaign, const std::vector<ScanCapture>& captures) {
-  std::vector<std::optional<std::size_t>> copy_of(captures.size());
-  std::map<std::pair<std::uintmax_t, std::string>, std::vector<std::size_t>> alike;
-  for (std::size_t i = 0; i < captures.size(); ++i) {
-    const std::filesystem::path file = campaign.path(captures[i].cloud);
-    std::error_code none;
-    const std::uintmax_t size = std::filesystem::file_size(file, none);
-    std::string beginning(65536, '\0');
-    std::ifstream stream(file, std::ios::binary);
-    if (none || !stream) continue;  // whoever reads it says why
-    stream.read(beginning.data(), static_cast<std::streamsize>(beginning.size()));
-    beginning.resize(static_cast<std::size_t>(stream.gcount()));
-    std::vector<std::size_t>& before = alike[{size, sha256(beginning)}];
-    for (const std::size_t b : before) {
-      if (sha256OfFile(campaign.path(captures[b].cloud)) != sha256OfFile(file)) continue;
-      copy_of[i] = b;
-      break;
-    }
-    if (!copy_of[i]) before.push_back(i);
-  }
-  return copy_of;
-}
-
 /// All scans of one artefact.
 class ArtefactEvaluator {
  public:
   ArtefactEvaluator(const Campaign& campaign, const ProfilerMounting& mounting, ScanModel model, int travel,
                     std::vector<ScanCapture> captures)
       : campaign_(campaign), mounting_(mounting), travel_(travel), captures_(std::move(captures)) {
-    copy_of_ = copies(campaign, captures_);
+    takeCopiesOut();
     options_.scan_model = model;
     options_.free_form = true;
     // Of many scans one shows by chance what is rare in one alone.
@@ -219,12 +194,45 @@ class ArtefactEvaluator {
     }
     scans = std::move(best);
     rejected = std::move(best_rejected);
+    rejected.insert(rejected.end(), copies_.begin(), copies_.end());
   }
 
   std::vector<ScanResult> scans;
   std::vector<RejectedCapture> rejected;
 
  private:
+  /// Scans are of one size where the profiler gives a grid, so that the beginning decides; all of a file is read only
+  /// where that agrees.
+  void takeCopiesOut() {
+    std::map<std::pair<std::uintmax_t, std::string>, std::vector<ScanCapture>> alike;
+    std::vector<ScanCapture> kept;
+    for (const ScanCapture& capture : captures_) {
+      const std::filesystem::path file = campaign_.path(capture.cloud);
+      std::error_code none;
+      const std::uintmax_t size = std::filesystem::file_size(file, none);
+      std::string beginning(65536, '\0');
+      std::ifstream stream(file, std::ios::binary);
+      if (none || !stream) {  // whoever reads it says why
+        kept.push_back(capture);
+        continue;
+      }
+      stream.read(beginning.data(), static_cast<std::streamsize>(beginning.size()));
+      beginning.resize(static_cast<std::size_t>(stream.gcount()));
+      std::vector<ScanCapture>& before = alike[{size, sha256(beginning)}];
+      const auto same = std::find_if(before.begin(), before.end(), [&](const ScanCapture& b) {
+        return sha256OfFile(campaign_.path(b.cloud)) == sha256OfFile(file);
+      });
+      if (same != before.end()) {
+        copies_.push_back({capture.cloud, fmt::format("{} holds the same bytes as {}: a copy is no second measurement.",
+                                                      capture.cloud, same->cloud)});
+        continue;
+      }
+      before.push_back(capture);
+      kept.push_back(capture);
+    }
+    captures_ = std::move(kept);
+  }
+
   /// What came of one scan: a result, or why there is none.
   struct Outcome {
     std::optional<ScanResult> result;
@@ -258,16 +266,7 @@ class ArtefactEvaluator {
       });
     }
     std::vector<std::size_t> rest;
-    for (std::size_t k = next; k < captures_.size(); ++k) {
-      const std::size_t at = (first + k) % captures_.size();
-      if (copy_of_[at]) {
-        outcomes[k].rejected = {captures_[at].cloud,
-                                fmt::format("{} holds the same bytes as {}: a copy is no second measurement.",
-                                            captures_[at].cloud, captures_[*copy_of_[at]].cloud)};
-        continue;
-      }
-      rest.push_back(k);
-    }
+    for (std::size_t k = next; k < captures_.size(); ++k) rest.push_back(k);
     RegistrationOptions options = options_;
     const auto one = [&](std::size_t i) {
       job.throwIfCancelled();
@@ -428,7 +427,7 @@ class ArtefactEvaluator {
   int travel_;
   bool parallel_ = false;
   std::vector<ScanCapture> captures_;
-  std::vector<std::optional<std::size_t>> copy_of_;  ///< an earlier capture whose file is the same
+  std::vector<RejectedCapture> copies_;
   RegistrationOptions options_;
   Extent reference_extent_;
   double reference_y_mm_ = 0.0;  ///< carriage position where the reference scan starts

@@ -107,27 +107,15 @@ Level levelAt(std::span<const double> time_s, const std::vector<double>& values,
   return nearest;
 }
 
-/// Levels at all readings, the window around each; missing readings stay missing.
-std::vector<Level> levelsOf(std::span<const double> time_s, const std::vector<double>& values, double window_s,
-                            double from_s, double to_s) {
-  std::vector<Level> levels(values.size());
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    if (!std::isfinite(values[i]) || time_s[i] < from_s || time_s[i] > to_s) continue;
-    levels[i] = levelAt(time_s, values, time_s[i], std::max(from_s, time_s[i] - 0.5 * window_s),
-                        std::min(to_s, time_s[i] + 0.5 * window_s));
-    if (levels[i].variance == 1.0) levels[i].value = values[i];
-  }
-  return levels;
-}
-
 /// Sums over the window around every reading, so that levels of many records with the same gaps cost little each.
 class LevelFilter {
  public:
-  LevelFilter(std::span<const double> time_s, const std::vector<char>& there, double window_s, double from_s,
+  /// Missing readings (NaN) have no level.
+  LevelFilter(std::span<const double> time_s, const std::vector<double>& values, double window_s, double from_s,
               double to_s)
       : time_s_(time_s) {
-    for (std::size_t i = 0; i < there.size(); ++i)
-      if (there[i] != 0 && time_s[i] >= from_s && time_s[i] <= to_s) kept_.push_back(i);
+    for (std::size_t i = 0; i < values.size(); ++i)
+      if (std::isfinite(values[i]) && time_s[i] >= from_s && time_s[i] <= to_s) kept_.push_back(i);
     std::size_t first = 0;
     std::size_t last = 0;
     for (const std::size_t i : kept_) {
@@ -140,6 +128,12 @@ class LevelFilter {
   }
   [[nodiscard]] std::size_t size() const noexcept { return kept_.size(); }
   [[nodiscard]] std::size_t row(std::size_t k) const noexcept { return kept_[k]; }
+  /// Of values at all times those of the kept readings.
+  [[nodiscard]] std::vector<double> kept(const std::vector<double>& values) const {
+    std::vector<double> out;
+    for (const std::size_t i : kept_) out.push_back(values[i]);
+    return out;
+  }
   /// The straight line through each window at its reading (levelAt); fewer than three readings: the reading itself.
   /// `values`: one for each kept reading.
   [[nodiscard]] std::vector<double> levels(const std::vector<double>& values) const {
@@ -189,13 +183,10 @@ struct Range {
 /// bootstrap).
 Range rangeOf(std::span<const double> time_s, const std::vector<double>& values, double window_s, double from_s,
               double to_s, double reading_sigma) {
-  std::vector<char> there(values.size(), 0);
-  for (std::size_t i = 0; i < values.size(); ++i) there[i] = std::isfinite(values[i]) ? 1 : 0;
-  const LevelFilter filter(time_s, there, window_s, from_s, to_s);
+  const LevelFilter filter(time_s, values, window_s, from_s, to_s);
   const std::size_t n = filter.size();
   if (n < 2) return {};
-  std::vector<double> kept(n);
-  for (std::size_t k = 0; k < n; ++k) kept[k] = values[filter.row(k)];
+  const std::vector<double> kept = filter.kept(values);
   const std::vector<double> levels = filter.levels(kept);
   const auto size = [](const std::vector<double>& v) {
     const auto [low, high] = std::minmax_element(v.begin(), v.end());
@@ -207,7 +198,7 @@ Range rangeOf(std::span<const double> time_s, const std::vector<double>& values,
   constexpr double least_readings = 48.0;
   const double period_s = (time_s[filter.row(n - 1)] - time_s[filter.row(0)]) / static_cast<double>(n - 1);
   const double shape_s = std::max(wider * window_s, least_readings * period_s);
-  const std::vector<double> shape = LevelFilter(time_s, there, shape_s, from_s, to_s).levels(kept);
+  const std::vector<double> shape = LevelFilter(time_s, values, shape_s, from_s, to_s).levels(kept);
   const double shape_size = size(shape);
   constexpr std::size_t readings_at_most = 4'000'000;
   const std::size_t records = std::clamp<std::size_t>(readings_at_most / n, 24, 200);
@@ -559,13 +550,12 @@ SpindleResult evaluateRotatingSpindle(std::span<const double> time_s, std::span<
     out.first_hour_sigma = stop >= hour ? std::sqrt(zero.variance + after_hour.variance) * reading_sigma : std::nan("");
     out.after_cooling_sigma = std::sqrt(zero.variance + cooled.variance) * reading_sigma;
     out.time_to_fraction_s = std::nan("");
-    const std::vector<Level> levels = levelsOf(time_s, c.values, window_s, start, stop);
+    const LevelFilter filter(time_s, c.values, window_s, start, stop);
+    const std::vector<double> levels = filter.levels(filter.kept(c.values));
     bool beyond = false;
-    for (std::size_t i = 0; i < levels.size(); ++i) {
-      if (!std::isfinite(levels[i].value)) continue;
-      const bool now =
-          (levels[i].value - zero.value) * (out.at_end > 0.0 ? 1.0 : -1.0) >= fraction * std::abs(out.at_end);
-      if (now && !beyond) out.time_to_fraction_s = time_s[i] - start;
+    for (std::size_t k = 0; k < levels.size(); ++k) {
+      const bool now = (levels[k] - zero.value) * (out.at_end > 0.0 ? 1.0 : -1.0) >= fraction * std::abs(out.at_end);
+      if (now && !beyond) out.time_to_fraction_s = time_s[filter.row(k)] - start;
       beyond = now;
     }
     if (std::abs(out.at_end) < 3.0 * out.change_sigma) out.time_to_fraction_s = std::nan("");
