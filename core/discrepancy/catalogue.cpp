@@ -167,7 +167,7 @@ std::vector<Effect> effectCatalogue(const CatalogueContext& context) {
   const auto& holds = knownEffects().holds[context.rotations ? 1 : 0];
   for (Effect& effect : out) {
     const auto found = holds.find(effect.id);
-    if (found != holds.end()) effect.contains = found->second;
+    if (found != holds.end()) effect.contains.insert(effect.contains.end(), found->second.begin(), found->second.end());
   }
   return out;
 }

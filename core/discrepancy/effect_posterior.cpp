@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <map>
 #include <numeric>
@@ -21,6 +22,10 @@ using Eigen::Index;
 /// Effects that are tried in earnest after a sweep, and sets that are followed.
 constexpr std::size_t most_tried = 5;
 constexpr std::size_t beam_width = 3;
+/// Second effects that are tried where two take the place of one.
+constexpr std::size_t most_second = 3;
+/// In evidence: what refining its lags may bring a set beyond the grid.
+constexpr double refining_gains = 15.0;
 /// In evidence, behind the best of a sweep: what is further behind on the grid does not catch up when lags are refined.
 constexpr double sweep_window = 40.0;
 /// In evidence, behind the best set: less probable sets are not listed.
@@ -384,7 +389,11 @@ double PosteriorSearch::priceOf(const JointFit& fit) const {
   double price = 0.0;
   for (std::size_t t = 0; t < fit.terms.size(); ++t) {
     if (fit.terms[t].effect->id == off_) continue;
-    if (wide(*fit.terms[t].effect)) price += 2.0 * std::log(1.0 / priors_.wider);
+    if (wide(*fit.terms[t].effect)) {
+      price += 2.0 * std::log(1.0 / priors_.wider);
+    } else if (fit.terms[t].effect->refinement) {
+      price += 2.0 * std::log(1.0 / priors_.refined);
+    }
     if (warmStart(fit.terms[t].variant)) price += warm_price;
     if (fit.terms[t].effect->driver_missing) price += 2.0 * std::log(1.0 / priors_.without_driver);
     const double missing = t == 0 ? priors_.one_missing : priors_.one_more;
@@ -540,8 +549,8 @@ PosteriorSearch::State PosteriorSearch::withFewerLags(State state, int rounds) c
   return state;
 }
 
-std::vector<PosteriorSearch::State> PosteriorSearch::extend(const State& state, std::size_t most,
-                                                            const JobContext& job) const {
+std::vector<PosteriorSearch::State> PosteriorSearch::extend(const State& state, std::size_t most, const JobContext& job,
+                                                            double least) const {
   std::vector<std::string> skip = idsOf(state.fit.terms);
   skip.insert(skip.end(), options_->reject.begin(), options_->reject.end());
   // Another name of one that is in: the same pattern, and nothing drives either.
@@ -556,6 +565,7 @@ std::vector<PosteriorSearch::State> PosteriorSearch::extend(const State& state, 
   std::vector<const CandidateFit*> tried;
   for (const CandidateFit& c : found) {
     if (tried.size() >= most || c.evidence < found.front().evidence - sweep_window || !(c.delta_chi2 > 4.0)) break;
+    if (state.evidence + c.evidence < least) break;
     tried.push_back(&c);
   }
   std::vector<State> out(tried.size());
@@ -565,6 +575,7 @@ std::vector<PosteriorSearch::State> PosteriorSearch::extend(const State& state, 
 
 PosteriorSearch::State PosteriorSearch::exchanged(State best, const JobContext& job,
                                                   std::vector<State>& visited) const {
+  const auto most = static_cast<std::size_t>(options_->max_effects) + options_->accept.size();
   for (int round = 0; round < 2; ++round) {
     bool better = false;
     for (std::size_t t = 0; t < best.fit.terms.size(); ++t) {
@@ -574,6 +585,14 @@ PosteriorSearch::State PosteriorSearch::exchanged(State best, const JobContext& 
       others.erase(others.begin() + static_cast<std::ptrdiff_t>(t));
       State without = stateOf(others, 1);
       std::vector<State> tried = extend(without, most_tried, job);
+      // Two in its place, which it may have stood for; in place of one alone the beam has looked for two.
+      if (best.fit.terms.size() > 1 && best.fit.terms.size() < most) {
+        const std::size_t singles = std::min(tried.size(), beam_width);
+        for (std::size_t k = 0; k < singles; ++k) {
+          std::vector<State> two = extend(tried[k], most_second, job, best.evidence - refining_gains);
+          tried.insert(tried.end(), std::make_move_iterator(two.begin()), std::make_move_iterator(two.end()));
+        }
+      }
       tried.push_back(without);
       for (State& s : tried) {
         const bool improves = s.evidence > best.evidence + 1e-3;
@@ -688,30 +707,30 @@ void PosteriorSearch::weighAgainstUnknown(EffectPosterior& posterior, Remainder&
     return Weight{jointDeviance(profiles, &NoiseProfile::with_unknown) - with_unknown - price,
                   jointDeviance(profiles, &NoiseProfile::noise_alone) - noise_alone - price};
   };
-  // The component in which each effect is largest: those that share it are weighed together as well.
-  std::vector<std::size_t> main(fit.terms.size(), 0);
+  std::map<Component, std::vector<std::size_t>> sharing;
   for (std::size_t t = 0; t < fit.terms.size(); ++t) {
     std::array<double, 6> power{};
     for (Index u = 0; u < problem_->size(); ++u) {
       power[static_cast<std::size_t>(problem_->component[static_cast<std::size_t>(u)])] +=
           std::pow(fit.contribution[t][u] / problem_->ownSigma(u), 2);
     }
-    main[t] = static_cast<std::size_t>(std::max_element(power.begin(), power.end()) - power.begin());
+    posterior.slots[t].main = static_cast<Component>(std::max_element(power.begin(), power.end()) - power.begin());
+    sharing[posterior.slots[t].main].push_back(t);
   }
-  for (std::size_t t = 0; t < fit.terms.size(); ++t) {
-    SlotEvidence& slot = posterior.slots[t];
-    const Weight alone = over({t});
-    slot.over_unknown = alone.over_unknown;
-    slot.over_noise = alone.over_noise;
-    slot.together_over_unknown = slot.over_unknown;
-    std::vector<std::size_t> together;
-    for (std::size_t k = 0; k < fit.terms.size(); ++k) {
-      if (main[k] == main[t]) together.push_back(k);
+  // A cause that nobody thought of is one more as well.
+  const double one_more = fit.terms.size() > 1 ? 2.0 * std::log((1.0 - priors_.one_more) / priors_.one_more) : 0.0;
+  // Those that share a component are weighed together as well, and every choice among them: one may not stand.
+  for (const auto& [component, members] : sharing) {
+    for (std::uint32_t choice = 1; choice < (1U << members.size()); ++choice) {
+      std::vector<std::size_t> together;
+      for (std::size_t k = 0; k < members.size(); ++k)
+        if ((choice >> k & 1U) != 0) together.push_back(members[k]);
+      const Weight weight = over(together);
+      posterior.choice_over_unknown[together] = weight.over_unknown + one_more;
+      if (together.size() > 1) continue;
+      posterior.slots[together.front()].over_unknown = weight.over_unknown + one_more;
+      posterior.slots[together.front()].over_noise = weight.over_noise;
     }
-    if (together.size() < 2) continue;
-    slot.together_over_unknown =
-        together.front() == t ? over(together).over_unknown : posterior.slots[together.front()].together_over_unknown;
-    slot.together = together.size();
   }
   std::vector<std::size_t> found;
   for (std::size_t t = 0; t < fit.terms.size(); ++t) {

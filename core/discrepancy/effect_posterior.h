@@ -18,6 +18,8 @@
 #pragma once
 
 #include <array>
+#include <limits>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -58,11 +60,14 @@ struct DiscrepancyPriors {
   /// Evidence (2 ln of the odds) by which an effect that holds a simpler one must be the more probable one: up to odds
   /// of 3 the data do not tell the two apart, and the simpler one is named (EFFECTS.md).
   double wider_lead = 2.2;
+  /// Odds of an effect that refines another without holding it (a screw that is warmer where the nut travels), beside
+  /// that one.
+  double refined = 0.2;
   /// Odds of an effect that holds a simpler one as a special case, beside that one; and the part of its amplitude by
   /// which the simpler one may be off in just the way that the wider one can follow.
   double wider = 0.1;
   double wider_error = 0.06;
-  double refinement_error = 0.14;  ///< the same of a refinement (a screw that is warmer in one place)
+  double refinement_error = 0.14;  ///< the same of a refinement that holds it (a screw without a known origin)
   /// The same of two effects: part of the amplitude of the others, where and when it acts, that a further effect may
   /// imitate, so that one smaller than this needs more; of one that chooses its own onset.
   double further_error = 0.07;
@@ -98,13 +103,12 @@ struct SlotEvidence {
   double delta_chi2 = 0.0;      ///< loss when it is taken out, the others refitted
   double delta_evidence = 0.0;  ///< the same in evidence
   double probability = 0.0;     ///< of this effect among the alternatives
-  /// 2 ln of the odds that there is an effect here, not noise and a smooth remainder made as large as needed.
+  /// 2 ln of the odds that there is an effect here, not noise and a smooth remainder made as large as needed: one thing
+  /// more in either case, so that what one more costs is not counted.
   double over_unknown = 0.0;
-  /// The same against noise alone.
+  /// The same against noise alone, which costs nothing.
   double over_noise = 0.0;
-  /// The same of all effects together that act mainly on the same component as this one; and how many these are.
-  double together_over_unknown = 0.0;
-  std::size_t together = 1;
+  Component main = Component::EX;   ///< in which it is largest beside the noise
   std::vector<Alternative> others;  ///< most probable first
 };
 
@@ -112,6 +116,9 @@ struct EffectPosterior {
   JointFit fit;
   std::vector<SlotEvidence> slots;
   std::vector<bool> forced;
+  /// 2 ln of the odds of slots that share their main component (ascending) and not one unknown cause in their place; of
+  /// every choice among those that share one.
+  std::map<std::vector<std::size_t>, double> choice_over_unknown;
   double evidence = 0.0;
   double evidence_of_nothing = 0.0;
   /// 2 ln of the odds that these effects are there, all that were not put in by hand or by the simulation, and not
@@ -177,7 +184,9 @@ class PosteriorSearch {
   /// An effect whose driver acts through two lags, where one says as much: lags that stand between those of the grid
   /// look like two of them.
   [[nodiscard]] State withFewerLags(State state, int rounds) const;
-  [[nodiscard]] std::vector<State> extend(const State& state, std::size_t most, const JobContext& job) const;
+  /// `state` and one more effect, the `most` best; on the grid, where lags are not refined yet, they promise `least`.
+  [[nodiscard]] std::vector<State> extend(const State& state, std::size_t most, const JobContext& job,
+                                          double least = std::numeric_limits<double>::lowest()) const;
   [[nodiscard]] State exchanged(State best, const JobContext& job, std::vector<State>& visited) const;
   [[nodiscard]] Eigen::MatrixXd modelErrorColumns(const JointFit& fit) const;
   /// What each term may do in components in which it does not act, a column for each way.

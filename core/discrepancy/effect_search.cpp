@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 
 #include "core/math/statistics.h"
 
@@ -162,6 +163,19 @@ bool EffectSearch::admissible(const ModelTerm& term, const Eigen::VectorXd& gain
     const Eigen::ArrayXd moved = (q.array() - median(std::vector<double>(q.begin(), q.end()))).square();
     constexpr double most_in_one = 0.8;
     if (moved.maxCoeff() > most_in_one * moved.sum()) return false;
+  }
+  // What moved was seen where it was and where it is: one or two readings that are off may have gone wrong.
+  if (first == Dynamics::Step && problem_->epoch_time_s.size() >= 6) {
+    constexpr std::size_t fewest_states = 3;
+    const Eigen::MatrixXd& pattern = shape(effect);
+    std::set<int> before;
+    std::set<int> after;
+    for (Index u = 0; u < problem_->size(); ++u) {
+      if (pattern.row(u).isZero(0.0)) continue;
+      const auto unit = static_cast<std::size_t>(u);
+      (problem_->time_s[unit] < term.parameters[0] ? before : after).insert(problem_->epoch[unit]);
+    }
+    if (std::min(before.size(), after.size()) < fewest_states) return false;
   }
   // Two lags of one driver add up; they do not cancel.
   if (driven == 2 && inputs[0].driver == inputs[1].driver && inputs[0].dynamics == Dynamics::Lag) {

@@ -489,6 +489,23 @@ std::string patternInScatter(const ResidualProblem& problem, const JointFit& fit
   return joinedList(parts);
 }
 
+double probabilityAt(double evidence) {
+  return 1.0 / (1.0 + std::exp(-0.5 * evidence));
+}
+
+/// 2 ln of the odds of effects that share a component, and not an unknown cause in their place; of what is not named
+/// there the unknown cause has taken the place already.
+double overUnknown(const EffectPosterior& posterior, std::vector<std::size_t> slots, const std::vector<bool>& unnamed) {
+  const Component main = posterior.slots[slots.front()].main;
+  std::vector<std::size_t> given_up;
+  for (std::size_t t = 0; t < unnamed.size(); ++t)
+    if (unnamed[t] && posterior.slots[t].main == main) given_up.push_back(t);
+  slots.insert(slots.end(), given_up.begin(), given_up.end());
+  std::sort(slots.begin(), slots.end());
+  return posterior.choice_over_unknown.at(slots) -
+         (given_up.empty() ? 0.0 : posterior.choice_over_unknown.at(given_up));
+}
+
 }  // namespace
 
 Judgement judge(const ResidualProblem& problem, const EffectSearch& search, const EffectPosterior& posterior,
@@ -503,27 +520,43 @@ Judgement judge(const ResidualProblem& problem, const EffectSearch& search, cons
   std::vector<bool> imitates(fit.terms.size(), false);
   std::vector<double> ratios(fit.terms.size(), 0.0);
   std::vector<double> claim(fit.terms.size(), 0.0);
+  std::vector<double> over_unknown(fit.terms.size(), 0.0);
   std::vector<double> patterns;
   for (std::size_t t = 0; t < fit.terms.size(); ++t) patterns.push_back(otherPattern(problem, fit, t));
   for (std::size_t round = 0; round <= fit.terms.size(); ++round) {
     std::size_t weakest = fit.terms.size();
+    const auto weaker = [&](std::size_t t) { return weakest == fit.terms.size() || claim[t] < claim[weakest]; };
     for (std::size_t t = 0; t < fit.terms.size(); ++t) {
       if (imitates[t]) continue;
       const SlotEvidence& slot = posterior.slots[t];
+      over_unknown[t] = overUnknown(posterior, {t}, imitates);
       ratios[t] = std::max(uneven_bodies * patterns[t], imitationRatio(problem, search, fit, t, remainder, imitates));
       // What smooth courses in simple patterns cannot take up, whatever their size, imitates nothing that drifts.
-      const bool beyond_drifts = fit.terms[t].effect->own && slot.over_unknown > remainder_evidence;
+      const bool beyond_drifts = fit.terms[t].effect->own && over_unknown[t] > remainder_evidence;
       const double known = 1.0 / (1.0 + std::pow(ratios[t] / (beyond_drifts ? 1.0 : priors.imitation), 4));
       const double there =
-          1.0 /
-          (1.0 + std::exp(-0.5 * std::min({slot.delta_evidence, slot.over_noise, slot.over_unknown + unknown_price})));
-      // One unknown cause in place of several effects that share a component: they must be far better than it.
-      const double instead =
-          slot.together_over_unknown + unknown_price - further_price * (static_cast<double>(slot.together) - 1.0);
-      const double jointly = slot.together > 1 ? 1.0 / (1.0 + std::exp(-0.5 * instead)) : 1.0;
-      claim[t] = known * there * jointly;
-      if (posterior.forced[t] || claim[t] >= least_confidence) continue;
-      if (weakest == fit.terms.size() || claim[t] < claim[weakest]) weakest = t;
+          probabilityAt(std::min({slot.delta_evidence, slot.over_noise, over_unknown[t] + unknown_price}));
+      claim[t] = known * there;
+      if (!posterior.forced[t] && claim[t] < least_confidence && weaker(t)) weakest = t;
+    }
+    // One unknown cause in place of several effects that share a component: they must be far better than it. Where they
+    // are not, the one that brings least goes.
+    for (const Component c : all_components) {
+      std::vector<std::size_t> sharing;
+      for (std::size_t t = 0; t < fit.terms.size(); ++t)
+        if (!imitates[t] && posterior.slots[t].main == c) sharing.push_back(t);
+      if (sharing.size() < 2) continue;
+      const double jointly = probabilityAt(overUnknown(posterior, sharing, imitates) + unknown_price -
+                                           further_price * (static_cast<double>(sharing.size()) - 1.0));
+      std::size_t least = fit.terms.size();
+      for (const std::size_t t : sharing) {
+        if (posterior.forced[t]) continue;
+        if (least == fit.terms.size() || posterior.slots[t].delta_evidence < posterior.slots[least].delta_evidence)
+          least = t;
+      }
+      if (least == fit.terms.size()) continue;
+      claim[least] *= jointly;
+      if (claim[least] < least_confidence && weaker(least)) weakest = least;
     }
     if (weakest == fit.terms.size()) break;
     imitates[weakest] = true;
@@ -600,7 +633,7 @@ Judgement judge(const ResidualProblem& problem, const EffectSearch& search, cons
       step.reason = fmt::format(
           "what it leaves is too large beside it ({:.2f}), or noise would do ({:.0f}): it may imitate a cause outside "
           "the catalogue",
-          ratios[t], std::min(slot.over_noise, slot.over_unknown));
+          ratios[t], std::min(slot.over_noise, over_unknown[t]));
       unnamed.push_back(effect.id);
     } else if (name.rivals.size() > most_rivals) {
       step.accepted = false;

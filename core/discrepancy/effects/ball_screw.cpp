@@ -29,8 +29,8 @@ void ball_screw(const CatalogueContext& context, std::vector<Effect>& out) {
       effect.id = (uniform ? "ball_screw.expansion." : "ball_screw.nonuniform.") + letter;
       effect.title = uniform ? "thermal expansion of the %1 ball screw" : "non-uniform expansion of the %1 ball screw";
       effect.subject = axis_names[axis];
-      effect.formula = uniform ? fmt::format("e{0} = g q ({0} - {0}0)", letter)
-                               : fmt::format("e{0} = g q ({0} - {0}0)^2 + g' q ({0} - {0}0)", letter);
+      effect.formula =
+          uniform ? fmt::format("e{0} = g q ({0} - {0}0)", letter) : fmt::format("e{0} = g q ({0} - {0}0)^2", letter);
       effect.references = {references::heisel, references::mayr};
       effect.physics =
           uniform
@@ -45,8 +45,9 @@ void ball_screw(const CatalogueContext& context, std::vector<Effect>& out) {
                          const double p = (q.position_mm[axis] - origin) * 1e-3;
                          return uniform ? p : p * p;
                        }}};
-      // Of the heat that stays where the nut travels the rest of the screw lacks its share: a slope beside the square.
-      if (!uniform) {
+      // About another origin the square has a slope as well, and then holds the uniform screw.
+      if (!uniform && !known) {
+        effect.contains.push_back("ball_screw.expansion." + letter);
         effect.shape.push_back({"um_per_m", [component, axis, origin](const DeviationQuery& q, Component c) {
                                   return c == component ? (q.position_mm[axis] - origin) * 1e-3 : 0.0;
                                 }});

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <cstdint>
+
 #include "core/discrepancy/catalogue.h"
 
 namespace spindrift {
@@ -37,11 +39,15 @@ void table(const CatalogueContext& context, std::vector<Effect>& out) {
     effect.variants.push_back({{{name, Dynamics::Lag}}, false});
     feeds.push_back({name, Dynamics::Lag});
   }
-  if (feeds.size() > 1) effect.variants.push_back({feeds, true});
-  if (!feeds.empty() && !room.empty()) {
-    std::vector<EffectInput> all = feeds;
-    all.push_back({room[0], Dynamics::Lag});
-    effect.variants.push_back({all, true});
+  // Any of them, with the room or without: each can only warm the table, and one that does not is none of its causes.
+  for (std::uint32_t choice = 1; choice < (1U << feeds.size()); ++choice) {
+    std::vector<EffectInput> inputs;
+    for (std::size_t k = 0; k < feeds.size(); ++k)
+      if ((choice >> k & 1U) != 0) inputs.push_back(feeds[k]);
+    if (inputs.size() > 1) effect.variants.push_back({inputs, true});
+    if (room.empty()) continue;
+    inputs.push_back({room[0], Dynamics::Lag});
+    effect.variants.push_back({std::move(inputs), true});
   }
   effect.sign = 1;
   effect.follows_room = true;

@@ -61,7 +61,7 @@ inline MachineDescription machine() {
   return MachineDescription::parse(JsonNode::parse(machine_json, "machine.json"), "machine.json");
 }
 
-enum class Hidden { Nothing, SpindleDrift, DriftThatLifts, Screw, Slip, Wave, TurnAndDrift };
+enum class Hidden { Nothing, SpindleDrift, DriftThatLifts, Screw, ScrewWhereItTravels, Slip, Wave, TurnAndDrift };
 
 /// `hidden_signal` takes what is hidden in every row, without noise, um.
 inline DiscrepancyInput campaign(Hidden hidden, std::uint64_t seed, double strength = 5.0,
@@ -114,6 +114,10 @@ inline DiscrepancyInput campaign(Hidden hidden, std::uint64_t seed, double stren
             break;
           case Hidden::Screw:
             if (c == 0) truth += strength * sigma * plant.screw[at] / 2.0 * points[p].x() / 300.0;
+            break;
+          case Hidden::ScrewWhereItTravels:
+            // Warmer towards the far end, where the nut is.
+            if (c == 0) truth += strength * sigma * plant.screw[at] / 2.0 * std::pow(points[p].x() / 300.0, 2);
             break;
           case Hidden::Slip:
             if (p == 2 && state > 14) truth += 2.0 * strength * sigma * (c == 0 ? 1.0 : -0.5);

@@ -41,7 +41,8 @@ TEST_P(IndependentCampaign, IsExplainedByWhatIsHiddenInIt) {
 INSTANTIATE_TEST_SUITE_P(Made, IndependentCampaign,
                          ::testing::Values("two_effects", "three_effects", "outside_the_catalogue",
                                            "together_ball_screw", "together_slip", "heavy_tails", "warm_at_the_start",
-                                           "nothing", "nothing_together"),
+                                           "nothing", "nothing_together", "together_coolant", "together_rotation",
+                                           "three_with_the_sun"),
                          [](const auto& test) { return std::string(test.param); });
 
 }  // namespace
