@@ -11,6 +11,13 @@
 
 namespace spindrift::gui {
 
+namespace {
+
+constexpr std::array every_queue{JobQueue::Campaign, JobQueue::Work,  JobQueue::Display,
+                                 JobQueue::Reading,  JobQueue::Files, JobQueue::Batch};
+
+}  // namespace
+
 /// Called from any thread; read by the GUI thread a few times a second.
 class JobRunner::Sink : public ProgressSink {
  public:
@@ -56,6 +63,16 @@ JobRunner::~JobRunner() {
     lane.queue.clear();
     if (lane.current != nullptr) lane.current->thread.request_stop();
   }
+}
+
+void JobRunner::stop(Lane& own) {
+  own.current->thread.request_stop();
+  if (!own.current->job.abandonable) return;
+  const Running& gone = *abandoned_.emplace_back(std::move(own.current));
+  if (shown() == nullptr) poll_.stop();
+  if (gone.job.cancelled) gone.job.cancelled();
+  if (!gone.job.quiet) Q_EMIT finished(gone.job.title, JobOutcome::Cancelled, {});
+  if (const Running* other = shown()) Q_EMIT started(other->job.title);
 }
 
 bool JobRunner::busy() const {
@@ -114,7 +131,7 @@ int JobRunner::run(Job job) {
       it = own.queue.erase(it);
       if (cancelled) cancelled();
     }
-    if (own.current != nullptr && own.current->job.key == job.key) own.current->thread.request_stop();
+    if (own.current != nullptr && own.current->job.key == job.key) stop(own);
   }
   const int id = ++last_id_;
   own.queue.push_back({id, std::move(job)});
@@ -153,13 +170,14 @@ void JobRunner::startNext(JobQueue queue) {
           QCoreApplication::translate("JobRunner", "Internal error, please report it: %1").arg(coreSentence(e.what()));
     }
     QMetaObject::invokeMethod(
-        this, [this, queue] { complete(queue); }, Qt::QueuedConnection);
+        this, [this, queue, id = running->id] { complete(queue, id); }, Qt::QueuedConnection);
   });
 }
 
-void JobRunner::complete(JobQueue queue) {
+void JobRunner::complete(JobQueue queue, int id) {
+  std::erase_if(abandoned_, [id](const std::unique_ptr<Running>& gone) { return gone->id == id; });
   Lane& own = lane(queue);
-  if (own.current == nullptr) return;
+  if (own.current == nullptr || own.current->id != id) return;
   const bool was_shown = shown() == own.current.get();
   const std::unique_ptr<Running> done = std::move(own.current);
   if (shown() == nullptr) poll_.stop();
@@ -199,8 +217,14 @@ void JobRunner::cancel() {
 }
 
 void JobRunner::cancel(int id) {
-  for (Lane& lane : lanes_) {
-    if (lane.current != nullptr && lane.current->id == id) lane.current->thread.request_stop();
+  for (JobQueue queue : every_queue) {
+    Lane& lane = this->lane(queue);
+    if (lane.current != nullptr && lane.current->id == id) {
+      stop(lane);
+      if (lane.current == nullptr) startNext(queue);
+      Q_EMIT changed();
+      return;
+    }
     const auto found =
         std::find_if(lane.queue.begin(), lane.queue.end(), [id](const Waiting& waiting) { return waiting.id == id; });
     if (found == lane.queue.end()) continue;
@@ -219,7 +243,7 @@ void JobRunner::empty(JobQueue queue) {
     if (waiting.job.cancelled) waiting.job.cancelled();
     if (!waiting.job.quiet) Q_EMIT finished(waiting.job.title, JobOutcome::Cancelled, {});
   }
-  if (own.current != nullptr) own.current->thread.request_stop();
+  if (own.current != nullptr) stop(own);
 }
 
 void JobRunner::cancelAll() {
@@ -228,9 +252,8 @@ void JobRunner::cancelAll() {
 }
 
 void JobRunner::cancelOfSession() {
-  for (const JobQueue queue : {JobQueue::Work, JobQueue::Display, JobQueue::Reading, JobQueue::Files}) {
-    empty(queue);
-  }
+  for (const JobQueue queue : every_queue)
+    if (queue != JobQueue::Batch) empty(queue);
   Q_EMIT changed();
 }
 

@@ -4,11 +4,12 @@
 //   GUI thread    run(job) ------------------------------------------> apply()  (or failed(sentence), cancelled())
 //   worker                  work(context) = compute on copies, return apply
 //
-// Queues, each with a thread of its own: long work runs one after another. What is only to be shown and is quick (a
-// picture that was chosen) waits neither for that nor for what takes a while to read, nor for files that are held
-// against what the session knows of them. What runs for hours beside the work of the day (a batch) keeps none of these
-// from running. A job with the `key` of an older one of its queue takes its place: the older is not wanted any more.
-// Cancelling a job that waits takes it out; one that runs is asked to stop, and nothing of it is applied.
+// Queues, each with a thread of its own: long work runs one after another. The campaign or session that was chosen does
+// not wait for work on the one at hand. What is only to be shown and is quick (a picture that was chosen) waits neither
+// for that nor for what takes a while to read, nor for files that are held against what the session knows of them. What
+// runs for hours beside the work of the day (a batch) keeps none of these from running. A job with the `key` of an
+// older one of its queue takes its place: the older is not wanted any more. Cancelling a job that waits takes it out;
+// one that runs is asked to stop, and nothing of it is applied.
 #pragma once
 
 #include <QObject>
@@ -29,6 +30,7 @@ namespace spindrift::gui {
 
 /// In the order in which the job bar tells of them.
 enum class JobQueue {
+  Campaign,  ///< the one that was chosen is read
   Work,
   Display,  ///< pictures
   Reading,  ///< details of what is stored, documents, a source that is listened to
@@ -47,6 +49,8 @@ struct Job {
   bool quiet = false;               ///< a short helper: not shown in the job bar
   JobQueue queue = JobQueue::Work;
   std::string key;  ///< what it is for; empty: takes nobody's place
+  /// It holds nothing that another needs, so that nobody waits for it to end when it is cancelled or replaced.
+  bool abandonable = false;
 };
 
 enum class JobOutcome { Done, Failed, Cancelled };
@@ -104,12 +108,15 @@ class JobRunner : public QObject {
 
   /// Nothing of it is begun any more, and what runs is stopped.
   void empty(JobQueue queue);
+  /// The one that runs is stopped, and where it is abandonable the queue is free at once.
+  void stop(Lane& own);
   [[nodiscard]] Lane& lane(JobQueue queue) { return lanes_[static_cast<std::size_t>(queue)]; }
   [[nodiscard]] const Running* shown() const;
   void startNext(JobQueue queue);
-  void complete(JobQueue queue);
+  void complete(JobQueue queue, int id);
 
-  std::array<Lane, 5> lanes_;
+  std::array<Lane, 6> lanes_;
+  std::vector<std::unique_ptr<Running>> abandoned_;  ///< until their threads end
   int last_id_ = 0;
   QTimer poll_;
 };

@@ -169,7 +169,8 @@ TEST(JobRunner, APictureWaitsForNothingThatTakesAWhileToRead) {
   JobRunner runner;
   std::atomic<bool> go_on{false};
   std::vector<std::string> applied;
-  for (const JobQueue queue : {JobQueue::Work, JobQueue::Reading, JobQueue::Files, JobQueue::Batch}) {
+  for (const JobQueue queue :
+       {JobQueue::Campaign, JobQueue::Work, JobQueue::Reading, JobQueue::Files, JobQueue::Batch}) {
     Job slow = lasting(go_on, applied, "slow");
     slow.queue = queue;
     runner.run(std::move(slow));
@@ -229,7 +230,7 @@ TEST(LatestWork, SaysThatItIsBusyUntilTheAnswerIsThere) {
 
 TEST(JobRunner, TheLatestOfAKeyWins) {
   for (const JobQueue queue :
-       {JobQueue::Work, JobQueue::Display, JobQueue::Reading, JobQueue::Files, JobQueue::Batch}) {
+       {JobQueue::Campaign, JobQueue::Work, JobQueue::Display, JobQueue::Reading, JobQueue::Files, JobQueue::Batch}) {
     JobRunner runner;
     std::atomic<bool> go_on{false};
     std::vector<std::string> applied;
@@ -246,6 +247,43 @@ TEST(JobRunner, TheLatestOfAKeyWins) {
     EXPECT_EQ(applied, std::vector<std::string>{"third"});
     EXPECT_EQ(given_up, 2) << "whoever asked is told";
   }
+}
+
+// A file is being read that cannot be left in the middle: what was chosen instead does not wait for its end.
+TEST(JobRunner, NobodyWaitsForWhatIsAbandoned) {
+  JobRunner runner;
+  JobBar bar(runner);
+  std::atomic<bool> go_on{false};
+  std::vector<std::string> applied;
+  int given_up = 0;
+  const auto reading = [&](const char* name) {
+    Job job;
+    job.title = QString::fromLatin1(name);
+    job.work = [&go_on, &applied, name](JobContext&) -> std::function<void()> {
+      while (std::string_view(name) != "small" && !go_on) std::this_thread::sleep_for(std::chrono::milliseconds(2));
+      return [&applied, name] { applied.emplace_back(name); };
+    };
+    job.cancelled = [&] { ++given_up; };
+    job.queue = JobQueue::Campaign;
+    job.key = "campaign";
+    job.abandonable = true;
+    return runner.run(std::move(job));
+  };
+  reading("large");
+  EXPECT_EQ(runner.title(), QStringLiteral("large"));
+  reading("small");
+  EXPECT_EQ(given_up, 1);
+  EXPECT_TRUE(QTest::qWaitFor([&] { return !runner.busy(); }, 10000));
+  EXPECT_EQ(applied, std::vector<std::string>{"small"});
+  const int id = reading("another large");
+  runner.cancel(id);
+  EXPECT_FALSE(runner.busy());
+  EXPECT_EQ(given_up, 2);
+  EXPECT_TRUE(bar.cancelButton()->isHidden());
+  EXPECT_FALSE(bar.log().messages().empty());
+  go_on = true;
+  QTest::qWait(50);
+  EXPECT_EQ(applied, std::vector<std::string>{"small"}) << "nothing of them is applied when they end";
 }
 
 TEST(JobRunner, WhatFailsBesideLongWorkIsAmongTheMessages) {
