@@ -341,8 +341,7 @@ nlohmann::json Session::inputs(std::int64_t id) const {
   return {{"files", database_->fingerprint(id)},
           {"exclusions", items},
           {"machine", machine.empty() ? std::string() : Fingerprint().add(machine.dump()).text()},
-          {"clocks", clocks.empty() ? nlohmann::json::object() : clocks},
-          {"program", SPINDRIFT_VERSION}};
+          {"clocks", clocks.empty() ? nlohmann::json::object() : clocks}};
 }
 
 std::int64_t Session::addResult(std::int64_t id, const std::string& kind, const nlohmann::json& options,

@@ -174,7 +174,7 @@ class Session {
 
   // Results -------------------------------------------------------------------------------------------------------
   /// What results of this campaign are made from now, by name: "files", "exclusions", "machine" and "clocks" (as the
-  /// user edited them), "program".
+  /// user edited them).
   [[nodiscard]] nlohmann::json inputs(std::int64_t campaign) const;
   /// To be called when the work starts, on the inputs that it is given. `made_from` adds to `inputs` what else it is
   /// made from: results by their kind.

@@ -293,8 +293,6 @@ std::optional<nlohmann::json> warmStatement(const TaskGraph& graph) {
 
 nlohmann::json reviewedNow(const TaskGraph& graph) {
   nlohmann::json now = graph.session().inputs(graph.campaign());
-  // Another version of the program shows the same.
-  now.erase("program");
   for (const char* kind : {"evaluate", "fit"}) now[kind] = graph.fingerprintOf(kind);
   return now;
 }

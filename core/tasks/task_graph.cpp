@@ -47,7 +47,7 @@ std::string_view wordsFor(std::string_view name) {
 
 std::string described(const std::string& input, const nlohmann::json& then, const nlohmann::json& now) {
   if (input == "exclusions" && then.is_array()) return exclusionsChanged(then, now);
-  if (input == "program") return then.is_string() ? "the version of the program" : "what it was made from is not known";
+  if (input == "revision") return "the version of the program";
   if (const TaskKind* task = taskKind(input); task != nullptr && !task->result.empty())
     return std::string(task->result);
   const std::string_view text = wordsFor(input);
@@ -156,7 +156,10 @@ std::vector<std::string> TaskGraph::madeFrom(const std::string& task) const {
 nlohmann::json TaskGraph::inputsOfResults(const std::string& task) const {
   nlohmann::json inputs = nlohmann::json::object();
   for (const std::string& kind : madeFrom(task)) inputs[kind] = fingerprintOf(kind);
-  if (const TaskKind* one = kind(task); one != nullptr && one->add_inputs != nullptr) one->add_inputs(*this, inputs);
+  const TaskKind* one = kind(task);
+  if (one == nullptr) return inputs;
+  inputs["revision"] = one->revision;
+  if (one->add_inputs != nullptr) one->add_inputs(*this, inputs);
   return inputs;
 }
 

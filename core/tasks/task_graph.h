@@ -2,7 +2,7 @@
 // Which work there is on a campaign, what each result is made from, and whether it still holds. Pages, the list of
 // steps, reports and the command line ask here and nowhere else.
 //
-//   files, exclusions, machine, clocks, program      Session::inputs
+//   files, exclusions, machine, clocks               Session::inputs
 //        |
 //      check   evaluate ---+--- fit ---+--- compensation ---+
 //                          +--- thermal --- log-compensation +--- report
@@ -45,8 +45,11 @@ using TaskWork = std::function<TaskResult(JobContext&, TaskOutput)>;
 /// of one id are one task to the user whose work, options and result differ by what the campaign consists of.
 struct TaskKind {
   std::string_view id;
-  std::string_view title;        ///< while it runs: "Fitting all cycles"
-  std::string_view result;       ///< what has changed when its result has: "the fitted model"
+  std::string_view title;   ///< while it runs: "Fitting all cycles"
+  std::string_view result;  ///< what has changed when its result has: "the fitted model"
+  /// Counted up with every change of the program that gives another result from the same inputs and options: results of
+  /// an earlier one are outdated. A new version of the program alone outdates nothing.
+  int revision = 1;
   bool of_observations = false;  ///< works on observations: captures have to be evaluated first
   bool told = false;             ///< a report shows its result as it is, and says whether it still holds
   bool starts_programs = false;  ///< runs programs that a file names: only when somebody asks for this task itself

@@ -7027,10 +7027,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>was er übrig lässt, ist neben ihm zu groß ({:.2f}), oder Rauschen würde genügen ({:.0f}): er ahmt möglicherweise eine Ursache außerhalb des Katalogs nach</translation>
     </message>
     <message>
-        <source>what it was made from is not known</source>
-        <translation>woraus es entstand, ist nicht bekannt</translation>
-    </message>
-    <message>
         <source>what it was made from is not known to this version</source>
         <translation>woraus es entstand, ist dieser Version nicht bekannt</translation>
     </message>

@@ -100,6 +100,20 @@ TEST(TaskGraph, AFitOfAnOldEvaluationStaysOutdatedWhenTheCapturesAreEvaluatedAga
   EXPECT_TRUE(s.status("fit").current);
 }
 
+TEST(TaskGraph, AnotherVersionOfTheProgramOutdatesWhatItCalculatesAnotherWayAlone) {
+  TaskSession s;
+  s.run("evaluate");
+  s.run("fit");
+  StoredResult fit = *s.graph().latest("fit");
+  fit.provenance.program_version = "0.1.0";
+  EXPECT_THAT(s.graph().changes(fit), IsEmpty());
+  ASSERT_EQ(fit.provenance.inputs.at("revision"), taskKind("fit")->revision);
+  fit.provenance.inputs["revision"] = taskKind("fit")->revision - 1;
+  EXPECT_THAT(s.graph().changes(fit), ElementsAre("the version of the program"));
+  fit.provenance.inputs.erase("revision");
+  EXPECT_THAT(s.graph().changes(fit), ElementsAre("the version of the program")) << "of versions that did not count";
+}
+
 TEST(TaskGraph, ASearchWithASimulatorHoldsForThatSimulatorAndForTheVersionItWrote) {
   TaskSession s;
   s.run("evaluate");

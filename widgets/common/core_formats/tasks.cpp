@@ -121,7 +121,6 @@ std::span<const char* const> spindrift::gui::core_formats::tasks() noexcept {
     QT_TRANSLATE_NOOP("core", "the simulator"),
     QT_TRANSLATE_NOOP("core", "the stored evaluation cannot be read ({}); evaluate again."),
     QT_TRANSLATE_NOOP("core", "the version of the program"),
-    QT_TRANSLATE_NOOP("core", "what it was made from is not known"),
     QT_TRANSLATE_NOOP("core", "what it was made from is not known to this version"),
     QT_TRANSLATE_NOOP("core", "{} cannot be run: {}"),
     QT_TRANSLATE_NOOP("core", "{} failed: {}"),
