@@ -56,7 +56,8 @@ CommandResult evaluateInSession(const EvaluateArguments& a, JobContext& job) {
   }
   SessionSource source(a.campaign, a.of_session, job);
   const bool made = !source.tasks().run("evaluate", job).empty();
-  const StoredEvaluation& evaluation = *source.state().evaluation;
+  const auto kept = source.state().evaluation(source.tasks().graph());
+  const StoredEvaluation& evaluation = *kept;
   if (!a.out.empty()) evaluation.observations.write(a.out);
   return {evaluation.details,
           made ? evaluation.summary : evaluation.summary + "taken from the session: still current\n",

@@ -27,16 +27,11 @@ struct SessionArguments {
 };
 
 nlohmann::json stepsOf(const Session& session, const CampaignRecord& record, std::string& summary) {
-  std::map<std::string, std::optional<StoredResult>> results;
+  CampaignResults results;
   const TaskLedger nothing_runs;
   const TaskGraph graph(
       session, record.id, std::make_shared<Campaign>(Campaign::read(record.folder)),
-      [&](const std::string& kind) -> const StoredResult* {
-        auto found = results.find(kind);
-        if (found == results.end()) found = results.emplace(kind, session.latestResult(record.id, kind)).first;
-        return found->second ? &*found->second : nullptr;
-      },
-      nothing_runs);
+      [&](const TaskGraph& tasks, const std::string& kind) { return results.latest(tasks, kind); }, nothing_runs);
   const CaptureCounts counts = CaptureCounts::of(graph);
   nlohmann::json steps = nlohmann::json::array();
   for (const StepId step : all_steps) {

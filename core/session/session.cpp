@@ -374,8 +374,8 @@ std::optional<StoredResult> Session::latestResult(std::int64_t id, const std::st
   return database_->latestResult(id, kind);
 }
 
-std::optional<StoredResult> Session::latestHead(std::int64_t id, const std::string& kind) const {
-  return database_->latestResult(id, kind, false);
+std::optional<UnreadResult> Session::latestUnread(std::int64_t id, const std::string& kind) const {
+  return database_->latestUnread(id, kind);
 }
 
 std::vector<StoredResult> Session::resultHeads(std::int64_t id, const std::string& kind) const {

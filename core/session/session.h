@@ -57,6 +57,15 @@ struct StoredResult {
   nlohmann::json payload;
 };
 
+/// A result whose payload is still text: to read that of a large one takes a while, and any thread can do it.
+struct UnreadResult {
+  StoredResult head;  ///< without its payload
+  std::string payload;
+  std::filesystem::path database;  ///< for the sentence of an error
+  /// Throws InputError: the text is no JSON.
+  [[nodiscard]] StoredResult read() const;
+};
+
 struct CampaignRecord {
   std::int64_t id = 0;
   std::string name;
@@ -187,8 +196,7 @@ class Session {
   std::int64_t addResult(std::int64_t campaign, const std::string& kind, const nlohmann::json& options,
                          const nlohmann::json& payload);
   [[nodiscard]] std::optional<StoredResult> latestResult(std::int64_t campaign, const std::string& kind) const;
-  /// The same without its payload, which may be large.
-  [[nodiscard]] std::optional<StoredResult> latestHead(std::int64_t campaign, const std::string& kind) const;
+  [[nodiscard]] std::optional<UnreadResult> latestUnread(std::int64_t campaign, const std::string& kind) const;
   [[nodiscard]] std::vector<StoredResult> results(std::int64_t campaign) const;
   /// All results of a kind without their payloads (those may be large), oldest first; `payload` fetches one.
   [[nodiscard]] std::vector<StoredResult> resultHeads(std::int64_t campaign, const std::string& kind) const;

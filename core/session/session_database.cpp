@@ -408,18 +408,33 @@ std::int64_t SessionDatabase::addResult(const StoredResult& result) {
 }
 
 std::vector<StoredResult> SessionDatabase::results(std::int64_t campaign, const std::string& kind) const {
-  return selectResults(campaign, kind, "order by id");
+  std::vector<StoredResult> list;
+  for (const UnreadResult& result : selectResults(campaign, kind, "order by id")) list.push_back(result.read());
+  return list;
 }
 
-std::optional<StoredResult> SessionDatabase::latestResult(std::int64_t campaign, const std::string& kind,
-                                                          bool with_payload) const {
-  std::vector<StoredResult> list = selectResults(campaign, kind, "order by id desc limit 1", with_payload);
+std::optional<UnreadResult> SessionDatabase::latestUnread(std::int64_t campaign, const std::string& kind) const {
+  std::vector<UnreadResult> list = selectResults(campaign, kind, "order by id desc limit 1");
   if (list.empty()) return std::nullopt;
   return std::move(list.front());
 }
 
+std::optional<StoredResult> SessionDatabase::latestResult(std::int64_t campaign, const std::string& kind) const {
+  const std::optional<UnreadResult> found = latestUnread(campaign, kind);
+  return found ? std::optional(found->read()) : std::nullopt;
+}
+
 std::vector<StoredResult> SessionDatabase::resultHeads(std::int64_t campaign, const std::string& kind) const {
-  return selectResults(campaign, kind, "order by id", false);
+  std::vector<StoredResult> list;
+  for (UnreadResult& result : selectResults(campaign, kind, "order by id", false))
+    list.push_back(std::move(result.head));
+  return list;
+}
+
+StoredResult UnreadResult::read() const {
+  StoredResult result = head;
+  result.payload = parsed(database, payload, "a result");
+  return result;
 }
 
 nlohmann::json SessionDatabase::payload(std::int64_t result) const {
@@ -442,11 +457,11 @@ std::vector<std::string> SessionDatabase::resultKinds(std::int64_t campaign) con
   });
 }
 
-std::vector<StoredResult> SessionDatabase::selectResults(std::int64_t campaign, const std::string& kind,
+std::vector<UnreadResult> SessionDatabase::selectResults(std::int64_t campaign, const std::string& kind,
                                                          const char* order, bool with_payload) const {
   return guarded(file_, [&] {
     const long long key = campaign;
-    std::vector<StoredResult> list;
+    std::vector<UnreadResult> list;
     const soci::rowset<soci::row> rows =
         (connection_->sql.prepare << std::string("select cast(id as text), kind, program_version, created_utc, "
                                                  "inputs_fingerprint, inputs, options") +
@@ -464,8 +479,7 @@ std::vector<StoredResult> SessionDatabase::selectResults(std::int64_t campaign, 
       result.provenance.inputs_fingerprint = row.get<std::string>(4);
       result.provenance.inputs = parsed(file_, row.get<std::string>(5), "inputs");
       result.provenance.options = parsed(file_, row.get<std::string>(6), "options");
-      result.payload = parsed(file_, row.get<std::string>(7), "a result");
-      list.push_back(std::move(result));
+      list.push_back({std::move(result), row.get<std::string>(7), file_});
     }
     return list;
   });

@@ -64,8 +64,8 @@ class SessionDatabase {
 
   std::int64_t addResult(const StoredResult& result);
   [[nodiscard]] std::vector<StoredResult> results(std::int64_t campaign, const std::string& kind) const;
-  [[nodiscard]] std::optional<StoredResult> latestResult(std::int64_t campaign, const std::string& kind,
-                                                         bool with_payload = true) const;
+  [[nodiscard]] std::optional<StoredResult> latestResult(std::int64_t campaign, const std::string& kind) const;
+  [[nodiscard]] std::optional<UnreadResult> latestUnread(std::int64_t campaign, const std::string& kind) const;
   /// All of a kind without their payloads, oldest first.
   [[nodiscard]] std::vector<StoredResult> resultHeads(std::int64_t campaign, const std::string& kind) const;
   [[nodiscard]] nlohmann::json payload(std::int64_t result) const;
@@ -92,7 +92,7 @@ class SessionDatabase {
   template <typename Body>
   auto writing(Body body) const -> decltype(body());
 
-  [[nodiscard]] std::vector<StoredResult> selectResults(std::int64_t campaign, const std::string& kind,
+  [[nodiscard]] std::vector<UnreadResult> selectResults(std::int64_t campaign, const std::string& kind,
                                                         const char* order, bool with_payload = true) const;
 
   std::filesystem::path file_;

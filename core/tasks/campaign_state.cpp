@@ -162,52 +162,108 @@ std::optional<CampaignEvaluation> asWorkedOut(const StoredEvaluation& stored) {
   return evaluation;
 }
 
-CampaignState CampaignState::read(const Session& session, std::int64_t wanted) {
-  CampaignState state;
+CampaignEdits CampaignEdits::of(const Session& session, std::int64_t campaign) {
+  CampaignEdits edits;
+  if (auto machine = session.setting(Session::machineKey(campaign)); machine && machine->is_object())
+    edits.machine = std::move(*machine);
+  edits.clocks = clockOffsetsOf(session, campaign);
+  return edits;
+}
+
+CampaignSource CampaignSource::of(const Session& session, std::int64_t wanted) {
+  CampaignSource source;
   const std::vector<CampaignRecord> all = session.campaigns();
-  if (all.empty()) return state;
+  if (all.empty()) return source;
   if (const auto last = session.setting("campaign"); wanted == 0 && last && last->is_number_integer())
     wanted = last->get<std::int64_t>();
   const auto found = std::find_if(all.begin(), all.end(), [&](const CampaignRecord& r) { return r.id == wanted; });
   const CampaignRecord& record = found != all.end() ? *found : all.back();
-  state.id = record.id;
-  auto campaign = std::make_shared<Campaign>(Campaign::read(record.folder));
-  const auto edited = session.setting(Session::machineKey(record.id));
-  if (edited && edited->is_object() && !edited->empty()) {
-    campaign->machine =
-        MachineDescription::parse(JsonNode::parse(edited->dump(), "machine as edited"), campaign->path("machine.json"));
-    state.machine_edited = true;
-  }
-  applyClockOffsets(*campaign, clockOffsetsOf(session, record.id));
-  state.campaign = std::move(campaign);
-  state.excluded = excludedItems(session, record.id);
+  source.id = record.id;
+  source.folder = record.folder;
+  source.edits = CampaignEdits::of(session, record.id);
+  source.excluded = excludedItems(session, record.id);
   for (const std::string& kind : session.resultKinds(record.id))
-    state.latest[kind] = session.latestResult(record.id, kind);
-  state.readEvaluation();
+    if (auto newest = session.latestUnread(record.id, kind)) source.newest.push_back(std::move(*newest));
+  return source;
+}
+
+const StoredResult* CampaignResults::latest(const TaskGraph& graph, const std::string& kind) {
+  auto heads = heads_.find(kind);
+  if (heads == heads_.end()) heads = heads_.emplace(kind, graph.session().resultHeads(graph.campaign(), kind)).first;
+  const StoredResult* head = graph.newestThatHolds(heads->second);
+  if (head == nullptr) return nullptr;
+  auto read = read_.find(head->id);
+  if (read == read_.end()) {
+    StoredResult whole = *head;
+    whole.payload = graph.session().payload(head->id);
+    read = read_.emplace(head->id, std::move(whole)).first;
+  }
+  return &read->second;
+}
+
+void CampaignResults::keep(StoredResult result) {
+  std::erase_if(read_, [&](const auto& read) { return read.second.kind == result.kind; });
+  // Where none of this kind was asked for, all of them are read when one is.
+  if (const auto heads = heads_.find(result.kind); heads != heads_.end()) {
+    heads->second.push_back(result);
+    heads->second.back().payload = nullptr;
+  }
+  takeRead(std::move(result));
+}
+
+CampaignState CampaignState::read(const CampaignSource& source, JobContext& job) {
+  CampaignState state;
+  if (source.id == 0) return state;
+  state.id = source.id;
+  job.report(0.0, "reading the campaign");
+  state.files = std::make_shared<const Campaign>(Campaign::read(source.folder));
+  job.throwIfCancelled();
+  job.report(0.7, "reading the results");
+  state.apply(source.edits);
+  state.excluded = source.excluded;
+  for (const UnreadResult& result : source.newest) {
+    job.throwIfCancelled();
+    StoredResult read = result.read();
+    if (read.kind == "evaluate") state.evaluation_ = std::make_shared<const StoredEvaluation>(evaluationFrom(read));
+    state.results_.takeRead(std::move(read));
+  }
   return state;
 }
 
-void CampaignState::keep(const std::string& kind, std::optional<StoredResult> result) {
-  latest[kind] = std::move(result);
-  readEvaluation();
+CampaignState CampaignState::read(const Session& session, std::int64_t wanted) {
+  JobContext unseen;
+  return read(CampaignSource::of(session, wanted), unseen);
 }
 
-void CampaignState::readEvaluation() {
-  const auto found = latest.find("evaluate");
-  if (found == latest.end() || !found->second) {
-    evaluation = nullptr;
-  } else if (evaluation == nullptr || evaluation->id != found->second->id) {
-    evaluation = std::make_shared<StoredEvaluation>(evaluationFrom(*found->second));
+void CampaignState::apply(const CampaignEdits& edits) {
+  machine_edited = !edits.machine.empty();
+  if (!machine_edited && edits.clocks.empty()) {
+    campaign = files;
+    return;
   }
+  auto edited = std::make_shared<Campaign>(*files);
+  if (machine_edited)
+    edited->machine = MachineDescription::parse(JsonNode::parse(edits.machine.dump(), "machine as edited"),
+                                                edited->path("machine.json"));
+  applyClockOffsets(*edited, edits.clocks);
+  campaign = std::move(edited);
+}
+
+void CampaignState::keep(std::optional<StoredResult> result) {
+  if (result) results_.keep(std::move(*result));
+}
+
+std::shared_ptr<const StoredEvaluation> CampaignState::evaluation(const TaskGraph& graph) const {
+  const StoredResult* latest = graph.latest("evaluate");
+  if (latest == nullptr) return nullptr;
+  if (evaluation_ == nullptr || evaluation_->id != latest->id)
+    evaluation_ = std::make_shared<const StoredEvaluation>(evaluationFrom(*latest));
+  return evaluation_;
 }
 
 TaskGraph CampaignState::tasks(const Session& session, const TaskLedger& ledger) const {
   return {session, id, campaign,
-          [this](const std::string& kind) -> const StoredResult* {
-            const auto found = latest.find(kind);
-            return found == latest.end() || !found->second ? nullptr : &*found->second;
-          },
-          ledger};
+          [this](const TaskGraph& graph, const std::string& kind) { return results_.latest(graph, kind); }, ledger};
 }
 
 ClockOffsets clockOffsetsOf(const Session& session, std::int64_t campaign) {
@@ -259,6 +315,16 @@ std::optional<ObservationSet> observationsToFit(const Campaign& campaign, const 
   std::optional<ObservationSet> set = observationsAtHand(campaign, evaluation, excluded, offsets);
   if (set) leaveOutCompensated(*set, campaign.log);
   return set;
+}
+
+std::shared_ptr<const ObservationSet> sharedObservationsToFit(const std::shared_ptr<const Campaign>& campaign,
+                                                              const StoredEvaluation* evaluation,
+                                                              const ExcludedItems& excluded,
+                                                              const ClockOffsets& offsets) {
+  const bool marked = !excluded.empty() || (campaign->log && campaign->log->has(compensation_signal));
+  if (campaign->observations && !marked) return {campaign, &*campaign->observations};
+  auto set = observationsToFit(*campaign, evaluation, excluded, offsets);
+  return set ? std::make_shared<const ObservationSet>(std::move(*set)) : nullptr;
 }
 
 }  // namespace spindrift

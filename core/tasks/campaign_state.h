@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -11,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "core/base/job_context.h"
 #include "core/machine/campaign.h"
 #include "core/machine/instrument_evaluation.h"
 #include "core/session/session.h"
@@ -43,23 +45,69 @@ struct StoredEvaluation {
 /// Items as in Exclusion, with their reasons.
 using ExcludedItems = std::map<std::string, std::string>;
 
-struct CampaignState {
+/// What the user put in place of what the files of a campaign say, as its session keeps it.
+struct CampaignEdits {
+  nlohmann::json machine;  ///< in place of machine.json; empty: nothing
+  ClockOffsets clocks;
+
+  [[nodiscard]] static CampaignEdits of(const Session& session, std::int64_t campaign);
+  bool operator==(const CampaignEdits&) const = default;
+};
+
+/// What a campaign is read from, taken where its session lives; any thread can read it then (CampaignState::read).
+struct CampaignSource {
   std::int64_t id = 0;  ///< 0: the session has no campaign
+  std::filesystem::path folder;
+  CampaignEdits edits;
+  ExcludedItems excluded;
+  std::vector<UnreadResult> newest;  ///< of every kind that there is
+
+  /// `wanted` 0: the one that was at hand last, else the newest. Throws InputError.
+  [[nodiscard]] static CampaignSource of(const Session& session, std::int64_t wanted = 0);
+};
+
+/// The results of a campaign: heads of a kind are read when they are first asked for, and payloads of those that are
+/// the latest.
+class CampaignResults {
+ public:
+  /// What TaskGraph calls the latest. Holds until `keep`. Throws InputError: the session is damaged.
+  [[nodiscard]] const StoredResult* latest(const TaskGraph& graph, const std::string& kind);
+  /// A result that has just been stored.
+  void keep(StoredResult result);
+  /// One that was read before it is asked for.
+  void takeRead(StoredResult result) { read_[result.id] = std::move(result); }
+
+ private:
+  std::map<std::string, std::vector<StoredResult>> heads_;  ///< oldest first
+  std::map<std::int64_t, StoredResult> read_;
+};
+
+struct CampaignState {
+  std::int64_t id = 0;                    ///< 0: the session has no campaign
+  std::shared_ptr<const Campaign> files;  ///< as they are on the disk
   std::shared_ptr<const Campaign> campaign;
   bool machine_edited = false;
   ExcludedItems excluded;
-  std::map<std::string, std::optional<StoredResult>> latest;
-  std::shared_ptr<const StoredEvaluation> evaluation;
 
-  /// `wanted` 0: the one that was at hand last, else the newest. Throws InputError.
+  /// Any thread. Throws InputError, Cancelled.
+  [[nodiscard]] static CampaignState read(const CampaignSource& source, JobContext& job);
+  /// Both at once: `wanted` as in CampaignSource::of. Throws InputError.
   [[nodiscard]] static CampaignState read(const Session& session, std::int64_t wanted = 0);
-  /// Takes over what was stored as the latest of its kind. Throws InputError as evaluationFrom.
-  void keep(const std::string& kind, std::optional<StoredResult> result);
-  /// The last evaluation, read when it is another than last time; null if there is none. Throws InputError as
+  /// Makes `campaign` of `files`, without reading them again. Throws InputError: no machine.
+  void apply(const CampaignEdits& edits);
+  /// Takes over what was stored.
+  void keep(std::optional<StoredResult> result);
+  /// The latest evaluation, read when it is another than last time; null if there is none. Throws InputError as
   /// evaluationFrom.
-  void readEvaluation();
+  [[nodiscard]] std::shared_ptr<const StoredEvaluation> evaluation(const TaskGraph& graph) const;
+  /// As it was read last: without a session, where another thread prepares what is shown.
+  [[nodiscard]] std::shared_ptr<const StoredEvaluation> readEvaluation() const { return evaluation_; }
   /// Its tasks; this and the ledger have to live as long.
   [[nodiscard]] TaskGraph tasks(const Session& session, const TaskLedger& ledger) const;
+
+ private:
+  mutable CampaignResults results_;
+  mutable std::shared_ptr<const StoredEvaluation> evaluation_;  ///< as it was read last
 };
 
 /// Offsets between the clocks of logger and instruments, as a session keeps them for a campaign.
@@ -81,5 +129,10 @@ void applyChoices(ObservationSet& set, const ExcludedItems& excluded, const Cloc
                                                               const StoredEvaluation* evaluation,
                                                               const ExcludedItems& excluded,
                                                               const ClockOffsets& offsets);
+/// The same, null if there are none; those of the campaign itself where nothing of them is marked, however many there
+/// are.
+[[nodiscard]] std::shared_ptr<const ObservationSet> sharedObservationsToFit(
+    const std::shared_ptr<const Campaign>& campaign, const StoredEvaluation* evaluation, const ExcludedItems& excluded,
+    const ClockOffsets& offsets);
 
 }  // namespace spindrift

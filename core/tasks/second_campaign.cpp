@@ -45,7 +45,7 @@ SecondCampaign SecondCampaign::of(const TaskGraph& graph, const TaskInputs& inpu
     const TaskLedger nothing_runs;
     const TaskGraph tasks = state.tasks(session, nothing_runs);
     if (const StoredResult* result = tasks.latest("evaluate"); result != nullptr && tasks.holds(*result))
-      second.evaluation_ = state.evaluation;
+      second.evaluation_ = state.evaluation(tasks);
   }
   return second;
 }

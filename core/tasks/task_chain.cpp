@@ -45,12 +45,12 @@ void CampaignTasks::runOne(const std::string& task, JobContext& job) {
   job.throwIfCancelled();
   state_.excluded = excludedItems(session_, state_.id);
   const ResultOrigin origin = graph().origin(task);
-  const TaskWork work = prepareTask(task, graph(), TaskInputs::of(session_, state_));
+  const TaskWork work = prepareTask(task, graph(), TaskInputs::of(graph(), state_));
   ledger_.started(origin);
   try {
     const TaskResult result = work(job, TaskOutput::Payload);
     ledger_.ended(origin);
-    state_.keep(task, session_.keepResult(origin, result.payload));
+    state_.keep(session_.keepResult(origin, result.payload));
   } catch (const InputError& e) {
     ledger_.failed(origin, e.what());
     throw;

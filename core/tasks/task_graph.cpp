@@ -127,8 +127,21 @@ TaskGraph::TaskGraph(const Session& session, std::int64_t campaign, std::shared_
       latest_(std::move(latest)),
       ledger_(ledger) {}
 
+const StoredResult* TaskGraph::latest(const std::string& kind) const {
+  // Inputs and options do not change while this is used, and to compare all results with them takes a while.
+  const auto found = found_.find(kind);
+  return found != found_.end() ? found->second : found_[kind] = latest_(*this, kind);
+}
+
+const StoredResult* TaskGraph::newestThatHolds(std::span<const StoredResult> results) const {
+  if (results.empty()) return nullptr;
+  if (results.size() == 1) return &results.front();
+  const auto found = std::find_if(results.rbegin(), results.rend(), [this](const StoredResult& r) { return holds(r); });
+  return found == results.rend() ? &results.back() : &*found;
+}
+
 bool TaskGraph::hasObservations() const {
-  return facts_.own_observations || latest_("evaluate") != nullptr;
+  return facts_.own_observations || latest("evaluate") != nullptr;
 }
 
 bool TaskGraph::overTime() const {
@@ -164,7 +177,7 @@ nlohmann::json TaskGraph::inputsOfResults(const std::string& task) const {
 }
 
 std::string TaskGraph::fingerprintOf(const std::string& kind) const {
-  const StoredResult* result = latest_(kind);
+  const StoredResult* result = latest(kind);
   return result == nullptr ? std::string() : result->provenance.inputs_fingerprint;
 }
 
@@ -185,9 +198,8 @@ std::vector<std::string> changesOfInputs(const nlohmann::json& then, const nlohm
   return changed;
 }
 
-std::vector<std::string> TaskGraph::changes(const StoredResult& result) const {
+std::vector<std::string> TaskGraph::changes(const StoredResult& result, const ResultOrigin& now) const {
   if (result.provenance.inputs.empty()) return {"what it was made from is not known to this version"};
-  const ResultOrigin now = origin(result.kind);
   const TaskKind* one = kind(result.kind);
   Provenance then = result.provenance;
   if (one != nullptr && one->as_now != nullptr) one->as_now(then, now);
@@ -199,14 +211,22 @@ std::vector<std::string> TaskGraph::changes(const StoredResult& result) const {
       if (then.options.value(name, nlohmann::json()) == now.options.value(name, nlohmann::json())) continue;
       changed.emplace_back(wordsFor(name).empty() ? "the options" : wordsFor(name));
     }
-  for (const std::string& kind : madeFrom(result.kind)) {
-    const StoredResult* from = latest_(kind);
-    if (from != nullptr && !changes(*from).empty()) changed.push_back(described(kind, {}, {}) + " is outdated");
-  }
   std::vector<std::string> once;
   for (std::string& text : changed)
     if (std::find(once.begin(), once.end(), text) == once.end()) once.push_back(std::move(text));
   return once;
+}
+
+std::vector<std::string> TaskGraph::changes(const StoredResult& result) const {
+  if (result.provenance.inputs.empty()) return changes(result, {});
+  std::vector<std::string> changed = changes(result, origin(result.kind));
+  for (const std::string& kind : madeFrom(result.kind)) {
+    const StoredResult* from = latest(kind);
+    if (from == nullptr || changes(*from).empty()) continue;
+    std::string outdated = described(kind, {}, {}) + " is outdated";
+    if (std::find(changed.begin(), changed.end(), outdated) == changed.end()) changed.push_back(std::move(outdated));
+  }
+  return changed;
 }
 
 bool TaskGraph::holds(const StoredResult& result) const {
@@ -223,7 +243,7 @@ std::string TaskGraph::blockedBecause(const std::string& task) const {
 
 TaskStatus TaskGraph::status(const std::string& task) const {
   TaskStatus status;
-  if (const StoredResult* result = latest_(task)) {
+  if (const StoredResult* result = latest(task)) {
     status.result = result->id;
     status.changed = changes(*result);
     status.current = status.changed.empty();

@@ -129,8 +129,8 @@ class TaskLedger {
 /// The tasks of one campaign; cheap to make, holds nothing of its own.
 class TaskGraph {
  public:
-  /// The latest result of a kind, null if there is none. Payloads are read by the steps alone.
-  using Latest = std::function<const StoredResult*(const std::string&)>;
+  /// The latest result of a kind (newestThatHolds), null if there is none. Payloads are read by the steps alone.
+  using Latest = std::function<const StoredResult*(const TaskGraph&, const std::string&)>;
 
   TaskGraph(const Session& session, std::int64_t campaign, std::shared_ptr<const Campaign> data, Latest latest,
             const TaskLedger& ledger);
@@ -142,6 +142,12 @@ class TaskGraph {
   [[nodiscard]] bool holds(const StoredResult& result) const;
   /// What a result was made from and is other now: "1 exclusion more", "the options". Nothing: it holds.
   [[nodiscard]] std::vector<std::string> changes(const StoredResult& result) const;
+  /// The same against what the task was, or would be, run on (`origin`), whatever has become of the results it is made
+  /// from.
+  [[nodiscard]] std::vector<std::string> changes(const StoredResult& result, const ResultOrigin& now) const;
+  /// Of these results of a kind, oldest first: work that was begun on other inputs or options and ends later takes
+  /// nothing away from a result that holds. The newest where none holds; null: there is none.
+  [[nodiscard]] const StoredResult* newestThatHolds(std::span<const StoredResult> results) const;
   /// What the task would be run on now; to be called when its work starts. `options` are added to those that the
   /// session keeps for the task.
   [[nodiscard]] ResultOrigin origin(const std::string& task,
@@ -151,7 +157,7 @@ class TaskGraph {
   /// Why the task cannot be run, whatever is run first; empty: it can.
   [[nodiscard]] std::string whyNot(const std::string& task) const;
 
-  [[nodiscard]] const StoredResult* latest(const std::string& kind) const { return latest_(kind); }
+  [[nodiscard]] const StoredResult* latest(const std::string& kind) const;
   [[nodiscard]] const CampaignFacts& facts() const { return facts_; }
   [[nodiscard]] const Session& session() const { return session_; }
   [[nodiscard]] std::int64_t campaign() const { return campaign_; }
@@ -178,6 +184,7 @@ class TaskGraph {
   std::shared_ptr<const Campaign> data_;
   CampaignFacts facts_;
   Latest latest_;
+  mutable std::map<std::string, const StoredResult*> found_;  ///< by latest_
   const TaskLedger& ledger_;
 };
 

@@ -10,13 +10,13 @@
 #include "core/workflows/open_simulator.h"
 
 namespace spindrift {
-TaskInputs TaskInputs::of(const Session& session, const CampaignState& state) {
+TaskInputs TaskInputs::of(const TaskGraph& graph, const CampaignState& state) {
   TaskInputs inputs;
   inputs.campaign = state.campaign;
   inputs.excluded = state.excluded;
-  if (auto set =
-          observationsToFit(*state.campaign, state.evaluation.get(), state.excluded, clockOffsetsOf(session, state.id)))
-    inputs.observations = std::make_shared<const ObservationSet>(std::move(*set));
+  const auto evaluation = state.campaign->observations ? nullptr : state.evaluation(graph);
+  inputs.observations = sharedObservationsToFit(state.campaign, evaluation.get(), state.excluded,
+                                                clockOffsetsOf(graph.session(), state.id));
   return inputs;
 }
 

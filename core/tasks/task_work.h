@@ -43,7 +43,7 @@ struct TaskInputs {
   std::shared_ptr<const TouchList> touches;
   std::shared_ptr<const TimeSeries> series;  ///< campaignSeries of these observations
 
-  [[nodiscard]] static TaskInputs of(const Session& session, const CampaignState& state);
+  [[nodiscard]] static TaskInputs of(const TaskGraph& graph, const CampaignState& state);
 };
 
 /// Of touches and of scans, where the campaign has them.

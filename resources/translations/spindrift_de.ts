@@ -11640,6 +11640,14 @@ endgültig fehlgeschlagen: {}</translation>
         <source>{}it was judged on rows that trained it, which shows nothing of new data</source>
         <translation>{}es wurde an Zeilen beurteilt, mit denen es angepasst wurde; das zeigt nichts über neue Daten</translation>
     </message>
+    <message>
+        <source>a result</source>
+        <translation>ein Ergebnis</translation>
+    </message>
+    <message>
+        <source>reading the results</source>
+        <translation>Ergebnisse werden gelesen</translation>
+    </message>
 </context>
 <context>
     <name>files</name>
@@ -21479,6 +21487,22 @@ ihrem Ordner und führen nicht hinaus.
     <message>
         <source>Manual in En&amp;glish …</source>
         <translation>Handbuch auf &amp;Englisch …</translation>
+    </message>
+    <message>
+        <source>Reading %1</source>
+        <translation>%1 wird gelesen</translation>
+    </message>
+    <message>
+        <source>&quot;%1&quot; is still running and will be cancelled; everything that was captured and every result that is done is kept.</source>
+        <translation>„%1“ läuft noch und wird abgebrochen; alle Aufnahmen und alle fertigen Ergebnisse bleiben erhalten.</translation>
+    </message>
+    <message>
+        <source>Another session</source>
+        <translation>Andere Sitzung</translation>
+    </message>
+    <message>
+        <source>Leave this session</source>
+        <translation>Diese Sitzung verlassen</translation>
     </message>
 </context>
 <context>

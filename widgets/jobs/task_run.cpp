@@ -159,7 +159,7 @@ std::function<std::function<const TaskGiven*()>(JobContext&)> detailOfTask(Sessi
     auto given = std::make_shared<TaskGiven>(TaskGiven{origin.kind, origin, work(job, TaskOutput::Detail)});
     return [&session, given]() -> const TaskGiven* {
       const ResultOrigin now = session.begin(given->task).origin;
-      return now.inputs == given->origin.inputs && now.options == given->origin.options ? given.get() : nullptr;
+      return now.sameAs(given->origin) ? given.get() : nullptr;
     };
   };
 }

@@ -17,7 +17,25 @@ namespace {
 /// What takes less may come with every capture.
 constexpr qint64 least_to_wait_for_ms = 100;
 
+/// The observations to fit of a campaign as it is at hand.
+ObservedCampaign observedFrom(std::shared_ptr<const Campaign> campaign,
+                              std::shared_ptr<const StoredEvaluation> evaluation, const ExcludedItems& excluded,
+                              const ClockOffsets& clocks) {
+  ObservedCampaign observed{std::move(campaign), std::move(evaluation), excluded, clocks, nullptr};
+  observed.set =
+      sharedObservationsToFit(observed.campaign, observed.evaluation.get(), observed.excluded, observed.clocks);
+  return observed;
+}
+
 }  // namespace
+
+ReadCampaign CampaignReading::read(JobContext& job) const {
+  ReadCampaign read{session, CampaignState::read(source, job), source.edits, {}};
+  if (read.state.campaign == nullptr) return read;
+  const auto evaluation = read.state.campaign->observations ? nullptr : read.state.readEvaluation();
+  read.observed = observedFrom(read.state.campaign, evaluation, read.state.excluded, source.edits.clocks);
+  return read;
+}
 
 SessionModel::SessionModel(QObject* parent) : QObject(parent) {
   since_told_.start();
@@ -26,24 +44,14 @@ SessionModel::SessionModel(QObject* parent) : QObject(parent) {
 }
 SessionModel::~SessionModel() = default;
 
+LoadedSession loadSession(std::unique_ptr<Session> session, std::int64_t campaign, JobContext& job) {
+  ReadCampaign read = CampaignReading{0, CampaignSource::of(*session, campaign)}.read(job);
+  return {std::move(session), std::move(read)};
+}
+
 LoadedSession loadSession(std::unique_ptr<Session> session, std::int64_t campaign) {
-  CampaignState state = CampaignState::read(*session, campaign);
-  return {std::move(session), std::move(state)};
-}
-
-void SessionModel::openSession(const std::filesystem::path& folder) {
-  adopt(loadSession(std::make_unique<Session>(Session::open(folder))));
-}
-
-void SessionModel::createSession(const std::filesystem::path& folder) {
-  auto made = std::make_unique<Session>(Session::create(folder));
-  Q_EMIT campaignLeaving();
-  session_ = std::move(made);
-  ++opened_;
-  ledger_ = {};
-  forget();
-  Q_EMIT sessionChanged();
-  Q_EMIT campaignChanged();
+  JobContext unseen;
+  return loadSession(std::move(session), campaign, unseen);
 }
 
 void SessionModel::close() {
@@ -70,7 +78,8 @@ void SessionModel::adopt(std::unique_ptr<Session> session, std::int64_t campaign
 
 void SessionModel::adopt(LoadedSession loaded) {
   Q_EMIT campaignLeaving();
-  take(std::move(loaded));
+  session_ = std::move(loaded.session);
+  takeOver(std::move(loaded.campaign));
   ++opened_;
   ledger_ = {};
   ++visit_;
@@ -79,14 +88,20 @@ void SessionModel::adopt(LoadedSession loaded) {
   Q_EMIT campaignChanged();
 }
 
-void SessionModel::take(LoadedSession loaded) {
-  session_ = std::move(loaded.session);
-  state_ = std::move(loaded.state);
+void SessionModel::takeOver(ReadCampaign read) {
+  state_ = std::move(read.state);
+  observed_ = std::move(read.observed);
+  if (state_.id != 0) {
+    // As they are now, if they were changed while it was read.
+    if (const CampaignEdits now = CampaignEdits::of(*session_, state_.id); now != read.edits) state_.apply(now);
+    state_.excluded = spindrift::excludedItems(*session_, state_.id);
+  }
   showExcluded();
 }
 
 void SessionModel::forget() {
   state_ = {};
+  observed_ = {};
   showExcluded();
   ++visit_;
 }
@@ -97,17 +112,31 @@ void SessionModel::showExcluded() {
     shown_excluded_[QString::fromStdString(item)] = QString::fromStdString(reason);
 }
 
-void SessionModel::selectCampaign(std::int64_t id) {
-  Q_EMIT campaignLeaving();
-  load(id);
-  ++visit_;
-  setSetting("campaign", id);
-  Q_EMIT campaignChanged();
+CampaignReading SessionModel::reading(std::int64_t id) const {
+  return {opened_, session_ == nullptr ? CampaignSource() : CampaignSource::of(*session_, id)};
 }
 
-void SessionModel::load(std::int64_t id) {
-  state_ = CampaignState::read(*session_, id);
-  showExcluded();
+void SessionModel::take(ReadCampaign read) {
+  const std::vector<CampaignRecord> all = campaigns();
+  const bool there = read.session == opened_ && std::any_of(all.begin(), all.end(), [&](const CampaignRecord& record) {
+                       return record.id == read.state.id;
+                     });
+  if (!there) return;
+  const bool another = read.state.id != state_.id;
+  if (another) Q_EMIT campaignLeaving();
+  takeOver(std::move(read));
+  if (another) {
+    ++visit_;
+    setSetting("campaign", state_.id);
+  }
+  Q_EMIT campaignChanged();
+  if (!another) Q_EMIT inputsChanged();
+}
+
+void SessionModel::applyEdits() {
+  state_.apply(CampaignEdits::of(*session_, state_.id));
+  Q_EMIT campaignChanged();
+  Q_EMIT inputsChanged();
 }
 
 std::vector<CampaignRecord> SessionModel::campaigns() const {
@@ -143,9 +172,7 @@ ClockOffsets SessionModel::clockOffsets() const {
 void SessionModel::setClockOffsets(const ClockOffsets& offsets) {
   if (session_ == nullptr || state_.campaign == nullptr) return;
   session_->setSetting(Session::clocksKey(state_.id), toJson(offsets));
-  load(state_.id);
-  Q_EMIT campaignChanged();
-  Q_EMIT inputsChanged();
+  applyEdits();
 }
 
 CampaignSnapshot SessionModel::snapshot() const {
@@ -157,21 +184,16 @@ CampaignSnapshot SessionModel::snapshot() const {
 }
 
 std::shared_ptr<const StoredEvaluation> SessionModel::evaluation() const {
-  (void)latest("evaluate");
-  state_.readEvaluation();
-  return state_.evaluation;
+  return session_ == nullptr || state_.campaign == nullptr ? nullptr : state_.evaluation(tasks());
 }
 
 std::shared_ptr<const ObservationSet> SessionModel::observations() const {
   if (campaign() == nullptr) return nullptr;
   const auto stored = campaign()->observations ? nullptr : evaluation();
   const ClockOffsets clocks = clockOffsets();
-  Observed& o = observed_;
-  if (o.campaign != campaign() || o.evaluation != stored || o.excluded != state_.excluded || o.clocks != clocks) {
-    o = {campaign(), stored, state_.excluded, clocks, nullptr};
-    if (auto set = observationsToFit(*o.campaign, stored.get(), o.excluded, o.clocks))
-      o.set = std::make_shared<const ObservationSet>(std::move(*set));
-  }
+  const ObservedCampaign& o = observed_;
+  if (o.campaign != campaign() || o.evaluation != stored || o.excluded != state_.excluded || o.clocks != clocks)
+    observed_ = observedFrom(campaign(), stored, state_.excluded, clocks);
   return o.set;
 }
 
@@ -183,9 +205,7 @@ void SessionModel::setMachine(const nlohmann::json& machine_json) {
   }
   session_->setSetting(Session::machineKey(state_.id),
                        machine_json.is_null() ? nlohmann::json::object() : machine_json);
-  load(state_.id);
-  Q_EMIT campaignChanged();
-  Q_EMIT inputsChanged();
+  applyEdits();
 }
 
 std::string SessionModel::inputsKey() const {
@@ -194,7 +214,7 @@ std::string SessionModel::inputsKey() const {
 }
 
 TaskGraph SessionModel::tasks() const {
-  return {*session_, state_.id, state_.campaign, [this](const std::string& kind) { return latest(kind); }, ledger_};
+  return state_.tasks(*session_, ledger_);
 }
 
 TaskInputs SessionModel::taskInputs() const {
@@ -203,16 +223,6 @@ TaskInputs SessionModel::taskInputs() const {
   inputs.excluded = state_.excluded;
   inputs.observations = observations();
   return inputs;
-}
-
-bool SessionModel::takeEarlier(const std::string& kind) {
-  if (session_ == nullptr || state_.campaign == nullptr) return false;
-  const std::vector<StoredResult> all = session_->resultHeads(state_.id, kind);
-  const auto found =
-      std::find_if(all.rbegin(), all.rend(), [this](const StoredResult& head) { return tasks().holds(head); });
-  if (found == all.rend()) return false;
-  storeResult(kind, {}, session_->payload(found->id));
-  return true;
 }
 
 PendingResult SessionModel::begin(const std::string& kind, const nlohmann::json& options) const {
@@ -261,7 +271,7 @@ bool SessionModel::finish(const PendingResult& pending, const nlohmann::json& pa
   if (session_ == nullptr || pending.session != opened_) return false;
   auto kept = session_->keepResult(pending.origin, payload);
   if (!kept || !atHand(pending)) return false;
-  state_.latest[pending.origin.kind] = std::move(kept);
+  state_.keep(std::move(kept));
   Q_EMIT resultChanged(QString::fromStdString(pending.origin.kind));
   return true;
 }
@@ -272,9 +282,7 @@ void SessionModel::storeResult(const std::string& kind, const nlohmann::json& op
 
 const StoredResult* SessionModel::latest(const std::string& kind) const {
   if (session_ == nullptr || state_.campaign == nullptr) return nullptr;
-  auto found = state_.latest.find(kind);
-  if (found == state_.latest.end()) found = state_.latest.emplace(kind, session_->latestResult(state_.id, kind)).first;
-  return found->second ? &*found->second : nullptr;
+  return tasks().latest(kind);
 }
 
 std::optional<StoredResult> SessionModel::result(const std::string& kind) const {

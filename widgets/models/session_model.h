@@ -56,15 +56,41 @@ struct ResultState {
   std::string program_version;
 };
 
-/// A session with everything its pages ask for at once, read from the disk: large ones take a while, so that a job does
-/// it (`loadSession`) and the GUI thread only takes it over.
+/// The observations to fit, and what they were made of.
+struct ObservedCampaign {
+  std::shared_ptr<const Campaign> campaign;
+  std::shared_ptr<const StoredEvaluation> evaluation;
+  ExcludedItems excluded;
+  ClockOffsets clocks;
+  std::shared_ptr<const ObservationSet> set;
+};
+
+/// A campaign with everything its pages ask for at once, read from the disk: large ones take a while, so that a job
+/// does it and the GUI thread only takes it over.
+struct ReadCampaign {
+  std::int64_t session = 0;  ///< SessionModel::sessionNumber of when it was asked for
+  CampaignState state;
+  CampaignEdits edits;  ///< that it was read with
+  ObservedCampaign observed;
+};
+
+/// What a campaign of the session that is open is read from: SessionModel::source.
+struct CampaignReading {
+  std::int64_t session = 0;
+  CampaignSource source;
+
+  /// Any thread. Throws InputError, Cancelled.
+  [[nodiscard]] ReadCampaign read(JobContext& job) const;
+};
+
 struct LoadedSession {
   std::unique_ptr<Session> session;
-  CampaignState state;
+  ReadCampaign campaign;
 };
 
 /// Any thread. `campaign` 0: the one that was at hand last, else the newest. Throws InputError.
 [[nodiscard]] LoadedSession loadSession(std::unique_ptr<Session> session, std::int64_t campaign = 0);
+[[nodiscard]] LoadedSession loadSession(std::unique_ptr<Session> session, std::int64_t campaign, JobContext& job);
 
 class SessionModel : public QObject {
   Q_OBJECT
@@ -73,8 +99,6 @@ class SessionModel : public QObject {
   ~SessionModel() override;
 
   // The session. All of these throw InputError and leave what was open as it is.
-  void openSession(const std::filesystem::path& folder);
-  void createSession(const std::filesystem::path& folder);
   void close();
   [[nodiscard]] bool isOpen() const { return session_ != nullptr; }
   [[nodiscard]] Session* session() { return session_.get(); }
@@ -88,7 +112,11 @@ class SessionModel : public QObject {
   /// Takes over a session that a job has made or added a campaign to.
   void adopt(LoadedSession loaded);
   void adopt(std::unique_ptr<Session> session, std::int64_t campaign);
-  void selectCampaign(std::int64_t id);
+  /// To read a campaign of the session, that at hand included, by a job; `take` is called when it is read.
+  [[nodiscard]] CampaignReading reading(std::int64_t id) const;
+  /// Makes it the campaign at hand, with exclusions, machine and clocks as they are now. Nothing happens if its session
+  /// or the campaign is gone.
+  void take(ReadCampaign read);
   [[nodiscard]] std::vector<CampaignRecord> campaigns() const;
   [[nodiscard]] std::int64_t campaignId() const { return state_.id; }
   /// Another number whenever a session is opened or a campaign chosen, never the same twice. Ids of campaigns and
@@ -140,8 +168,6 @@ class SessionModel : public QObject {
   }
   /// Work on a task of the campaign at hand runs or waits.
   [[nodiscard]] bool isRunning(const std::string& task) const { return ledger_.running(state_.id, task); }
-  /// Takes an earlier result that is what the task would give now as the latest. False: there is none.
-  bool takeEarlier(const std::string& kind);
   /// Tells the tasks that work on a result has been asked for, and how it ended when nothing is stored; see taskJob().
   void workStarted(const PendingResult& pending);
   void workEnded(const PendingResult& pending);
@@ -215,8 +241,9 @@ class SessionModel : public QObject {
   void storingFailed(const QString& sentence);
 
  private:
-  void load(std::int64_t id);
-  void take(LoadedSession loaded);
+  void takeOver(ReadCampaign read);
+  /// Machine or clocks are stored as they are to be now.
+  void applyEdits();
   /// No campaign at hand.
   void forget();
   void showExcluded();
@@ -226,16 +253,8 @@ class SessionModel : public QObject {
   std::unique_ptr<Session> session_;
   TaskLedger ledger_;
   /// Of the campaign at hand; results and the evaluation are read when they are first asked for.
-  mutable CampaignState state_;
-  /// The observations to fit, and what they were made of.
-  struct Observed {
-    std::shared_ptr<const Campaign> campaign;
-    std::shared_ptr<const StoredEvaluation> evaluation;
-    ExcludedItems excluded;
-    ClockOffsets clocks;
-    std::shared_ptr<const ObservationSet> set;
-  };
-  mutable Observed observed_;
+  CampaignState state_;
+  mutable ObservedCampaign observed_;
   std::map<QString, QString> shown_excluded_;  ///< state_.excluded, as the window asks for it
   std::int64_t visit_ = 0;
   std::int64_t opened_ = 0;  ///< sessions so far

@@ -14,19 +14,6 @@
 
 namespace spindrift::gui {
 
-namespace {
-
-/// Whether that is what a result was made from.
-bool madeFrom(const ResultOrigin& origin, const Provenance& stored) {
-  if (!stored.options.is_object()) return false;
-  // Options beyond those that the session keeps belong to whoever added them.
-  for (const auto& [name, value] : origin.options.items())
-    if (stored.options.value(name, nlohmann::json()) != value) return false;
-  return origin.inputs == stored.inputs;
-}
-
-}  // namespace
-
 Page::Page(PageContext context, StepId step, QWidget* parent)
     : QWidget(parent), context_(std::move(context)), step_(step) {
   auto* column = new QVBoxLayout(this);
@@ -122,7 +109,7 @@ ShownTask Page::shown(const std::string& task, const QString& title) {
   out.state = session().state(task);
   const StoredResult* stored = session().latest(task);
   const auto found = given_.find(task);
-  if (stored != nullptr && found != given_.end() && madeFrom(found->second->origin, stored->provenance)) {
+  if (stored != nullptr && found != given_.end() && session().tasks().changes(*stored, found->second->origin).empty()) {
     out.given = found->second;
   } else if (out.state.current) {
     out.reading = true;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/base/error.h"
 #include "core/connect/connections.h"
@@ -114,15 +115,19 @@ void ConnectionsService::stop() {
 
 void ConnectionsService::finishNow() {
   stop();
+  const auto record = [this](std::int64_t campaign) {
+    try {
+      (void)session_.session()->recordsLog(campaign);
+    } catch (const std::exception&) {
+      // The session looks at its files when it is opened.
+    }
+  };
+  jobs_.cancelAll();
+  if (const std::int64_t campaign = std::exchange(taking_over_, 0); campaign != 0 && session_.session() != nullptr)
+    record(campaign);
   for (Ending& one : ending_) {
     one.live.reset();  // waits
-    if (one.recorded && session_.session() != nullptr && one.session == session_.sessionNumber()) {
-      try {
-        (void)session_.session()->recordsLog(one.campaign);
-      } catch (const std::exception&) {
-        // The session looks at its files when it is opened.
-      }
-    }
+    if (one.recorded && session_.session() != nullptr && one.session == session_.sessionNumber()) record(one.campaign);
   }
   ending_.clear();
   timer_.stop();
@@ -172,15 +177,37 @@ void ConnectionsService::reap() {
   }
 }
 
-/// What was recorded becomes the log of the campaign: its results know, and its pages show it.
+/// What was recorded becomes the log of the campaign: its results know, and its pages show it. Of the campaign at hand
+/// both at once, when it has been read: nothing is worked out from the log before under the name of the new one.
 void ConnectionsService::takeOver(std::int64_t campaign) {
+  const auto take = [this, campaign, session = session_.sessionNumber()](ReadCampaign* read) {
+    taking_over_ = 0;
+    if (session_.session() == nullptr || session != session_.sessionNumber()) return;
+    try {
+      (void)session_.session()->recordsLog(campaign);
+      if (read != nullptr && campaign == session_.campaignId()) session_.take(std::move(*read));
+    } catch (const InputError& e) {
+      Q_EMIT told(Tone::Bad, coreSentence(e.what()));
+    }
+    Q_EMIT changed();
+  };
+  if (campaign != session_.campaignId()) return take(nullptr);
+  Job job;
   try {
-    (void)session_.session()->recordsLog(campaign);
-    // Reads the campaign at hand anew, with the log as it is now.
-    if (campaign == session_.campaignId()) session_.setClockOffsets(session_.clockOffsets());
+    job.work = [reading = session_.reading(campaign), take](JobContext& context) -> std::function<void()> {
+      auto read = std::make_shared<ReadCampaign>(reading.read(context));
+      return [read, take] { take(read.get()); };
+    };
   } catch (const InputError& e) {
     Q_EMIT told(Tone::Bad, coreSentence(e.what()));
+    return;
   }
+  job.failed = [this, take](const QString& sentence) {
+    take(nullptr);
+    Q_EMIT told(Tone::Bad, sentence);
+  };
+  taking_over_ = campaign;
+  jobs_.run(std::move(job));
 }
 
 std::vector<LivePoint> ConnectionsService::history(std::size_t column) const {

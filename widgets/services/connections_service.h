@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "core/connect/live_recording.h"
+#include "widgets/jobs/job_runner.h"
 #include "widgets/models/session_model.h"
 #include "widgets/theme/theme.h"
 
@@ -41,8 +42,8 @@ class ConnectionsService : public QObject {
   void finishNow();
   [[nodiscard]] bool running() const { return live_ != nullptr; }
   [[nodiscard]] bool recording() const { return live_ != nullptr && snapshot_.recording; }
-  /// A log is still being closed.
-  [[nodiscard]] bool ending() const { return !ending_.empty(); }
+  /// A log is still being closed, or read.
+  [[nodiscard]] bool ending() const { return !ending_.empty() || jobs_.busy(); }
 
   /// What came, as the last look found it; empty while nothing runs.
   [[nodiscard]] const LiveSnapshot& snapshot() const { return snapshot_; }
@@ -88,6 +89,8 @@ class ConnectionsService : public QObject {
   std::int64_t live_session_ = 0;
   LiveSnapshot snapshot_;
   std::vector<Ending> ending_;
+  std::int64_t taking_over_ = 0;  ///< campaign whose log is being read; 0: none
+  JobRunner jobs_;
 };
 
 /// "T_spindle_degC" -> "spindle"; "spindle_rpm" -> "spindle speed".

@@ -22,23 +22,11 @@ std::vector<std::string> changesOf(const TaskGraph& tasks) {
   return changed;
 }
 
-/// As it would be if it were at hand.
-void readOther(const Session& session, std::int64_t id, ReviewSource& source) {
-  const CampaignState state = CampaignState::read(session, id);
-  source.campaign = withoutExcluded(*state.campaign, state.excluded);
-  source.observations = TaskInputs::of(session, state).observations;
-  const TaskLedger nothing_runs;
-  const TaskGraph tasks = state.tasks(session, nothing_runs);
+void readReview(const TaskGraph& tasks, const TaskInputs& inputs, ReviewSource& source) {
+  source.campaign = withoutExcluded(*inputs.campaign, inputs.excluded);
+  source.observations = inputs.observations;
   source.changed = changesOf(tasks);
   if (const StoredResult* story = tasks.latest("discrepancy"))
-    source.discrepancy = std::make_shared<const nlohmann::json>(story->payload);
-}
-
-void readOwn(const SessionModel& session, ReviewSource& source) {
-  source.campaign = session.snapshot().campaign;
-  source.observations = session.observations();
-  source.changed = changesOf(session.tasks());
-  if (const StoredResult* story = session.latest("discrepancy"))
     source.discrepancy = std::make_shared<const nlohmann::json>(story->payload);
 }
 
@@ -81,9 +69,13 @@ std::shared_ptr<const ReviewSource> ReviewSources::source(std::int64_t id) {
   auto source = std::make_shared<ReviewSource>();
   try {
     if (id == session_.campaignId()) {
-      readOwn(session_, *source);
+      readReview(session_.tasks(), session_.taskInputs(), *source);
     } else {
-      readOther(*session_.session(), id, *source);
+      // As it would be if it were at hand.
+      const CampaignState state = CampaignState::read(*session_.session(), id);
+      const TaskLedger nothing_runs;
+      const TaskGraph tasks = state.tasks(*session_.session(), nothing_runs);
+      readReview(tasks, TaskInputs::of(tasks, state), *source);
     }
     source->id = id;
     source->fit = chosen<NineParameterChoice>(*session_.session(), id).options();

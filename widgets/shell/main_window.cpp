@@ -170,14 +170,9 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent), workflow_(session
   // Whoever asked for it: a page shows what is stored.
   connect(&session_, &SessionModel::resultChanged, this, &MainWindow::refreshPage);
   connect(campaign_, &QComboBox::activated, this, [this](int) {
-    const auto id = campaign_->currentData().toLongLong();
-    if (id == session_.campaignId()) return;
-    try {
-      session_.selectCampaign(id);
-    } catch (const InputError& e) {
-      refreshCampaigns();
-      tell(coreSentence(e.what()));
-    }
+    selectCampaign(campaign_->currentData().toLongLong());
+    // What is shown is still that of the campaign at hand.
+    refreshCampaigns();
   });
   connect(&session_, &SessionModel::storingFailed, this, &MainWindow::tell);
   connect(welcome_, &WelcomePage::demoChosen, this, [this](const QString& name) { startDemo(name); });
@@ -453,13 +448,41 @@ void MainWindow::remember(const QString& folder) {
   fillRecentMenu();
 }
 
+namespace {
+
+/// Of all that is opened or chosen the last is wanted.
+constexpr auto chosen_key = "campaign";
+
+}  // namespace
+
+void MainWindow::selectCampaign(std::int64_t id) {
+  jobs_.cancel(reading_);
+  if (id == session_.campaignId() || !session_.isOpen()) return;
+  try {
+    Job job;
+    job.work = [this, reading = session_.reading(id)](JobContext& context) -> std::function<void()> {
+      auto read = std::make_shared<ReadCampaign>(reading.read(context));
+      return [this, read] { session_.take(std::move(*read)); };
+    };
+    job.title = tr("Reading %1").arg(QString::fromStdString(session_.session()->campaign(id).name));
+    job.queue = JobQueue::Campaign;
+    job.key = chosen_key;
+    job.abandonable = true;
+    reading_ = jobs_.run(std::move(job));
+  } catch (const InputError& e) {
+    tell(coreSentence(e.what()));
+  }
+}
+
 void MainWindow::openSession(const QString& folder) {
   Job job;
   job.title = tr("Opening %1").arg(QDir(folder).dirName());
-  job.work = [this, folder](JobContext&) -> std::function<void()> {
+  job.queue = JobQueue::Campaign;
+  job.key = chosen_key;
+  job.work = [this, folder](JobContext& context) -> std::function<void()> {
     prepareOpenGl();
-    auto loaded =
-        std::make_shared<LoadedSession>(loadSession(std::make_unique<Session>(Session::open(folder.toStdString()))));
+    auto loaded = std::make_shared<LoadedSession>(
+        loadSession(std::make_unique<Session>(Session::open(folder.toStdString())), 0, context));
     return [this, folder, loaded] {
       finishRecording();
       session_.adopt(std::move(*loaded));
@@ -650,7 +673,8 @@ void MainWindow::addCampaign(const QString& folder) {
         // Whoever adds it goes on with it.
         const nlohmann::json name = session_.campaignSetting(option_keys::operator_name, nullptr);
         if (!name.is_null()) session_.setSetting(campaignKey(option_keys::operator_name, id), name);
-        session_.selectCampaign(id);
+        selectCampaign(id);
+        refreshCampaigns();
       } catch (const InputError& e) {
         tell(coreSentence(e.what()));
       }

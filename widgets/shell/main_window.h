@@ -57,6 +57,9 @@ class MainWindow : public QMainWindow {
   void openCampaign(const QString& folder);
   /// Copies a campaign into the session that is open (in the background) and shows it; the others stay.
   void addCampaign(const QString& folder);
+  /// Shows another campaign of the session once it has been read (in the background); until then the one at hand stays.
+  /// That one: what is being read is not wanted any more.
+  void selectCampaign(std::int64_t id);
   void openLog(const QString& file);  ///< a CSV with columns over time becomes a campaign of its own
   /// Opens a folder of either kind.
   void open(const QString& folder);
@@ -214,6 +217,7 @@ class MainWindow : public QMainWindow {
   QPushButton* next_;
   QPushButton* back_;
   std::int64_t shown_visit_ = -1;  ///< of the campaign that the window went to last
+  int reading_ = 0;                ///< the job that reads a campaign
 };
 
 }  // namespace spindrift::gui

@@ -100,6 +100,27 @@ TEST(TaskGraph, AFitOfAnOldEvaluationStaysOutdatedWhenTheCapturesAreEvaluatedAga
   EXPECT_TRUE(s.status("fit").current);
 }
 
+// Begun with other options that were taken back meanwhile: it is stored, and what holds is shown.
+TEST(TaskGraph, WorkThatEndsLaterTakesNothingAwayFromAResultThatHolds) {
+  TaskSession s;
+  s.run("evaluate");
+  s.run("fit", {{"of", "first"}});
+  s.option("nine-parameter", {{"robust", 1}});
+  const ResultOrigin begun = s.graph().origin("fit");
+  s.option("nine-parameter", nlohmann::json::object());
+  s.session_.keepResult(begun, {{"of", "second"}});
+  EXPECT_TRUE(s.status("fit").current);
+  EXPECT_EQ(s.graph().latest("fit")->payload.at("of"), "first");
+  s.run("compensation");
+  s.option("nine-parameter", {{"robust", 1}});
+  EXPECT_TRUE(s.status("fit").current) << "not run again for that";
+  EXPECT_EQ(s.graph().latest("fit")->payload.at("of"), "second");
+  EXPECT_EQ(s.session_.resultHeads(s.id_, "fit").size(), 2U) << "referred to, not copied";
+  s.option("nine-parameter", {{"robust", 2}});
+  EXPECT_FALSE(s.status("fit").current);
+  EXPECT_EQ(s.graph().latest("fit")->payload.at("of"), "second") << "none holds: the newest";
+}
+
 TEST(TaskGraph, AnotherVersionOfTheProgramOutdatesWhatItCalculatesAnotherWayAlone) {
   TaskSession s;
   s.run("evaluate");
@@ -112,6 +133,19 @@ TEST(TaskGraph, AnotherVersionOfTheProgramOutdatesWhatItCalculatesAnotherWayAlon
   EXPECT_THAT(s.graph().changes(fit), ElementsAre("the version of the program"));
   fit.provenance.inputs.erase("revision");
   EXPECT_THAT(s.graph().changes(fit), ElementsAre("the version of the program")) << "of versions that did not count";
+}
+
+TEST(TaskGraph, WhatWasWorkedOutNowIsComparedWithAStoredResultAsTheGraphComparesIt) {
+  TaskSession s;
+  s.run("evaluate");
+  const ResultOrigin now = s.graph().origin("fit");
+  ResultOrigin earlier = now;
+  ASSERT_GT(earlier.options.size(), 1U);
+  for (auto it = earlier.options.begin(); it != earlier.options.end();)
+    it = it.key() == "model" ? std::next(it) : earlier.options.erase(it);
+  s.session_.keepResult(earlier, nlohmann::json::object());
+  ASSERT_TRUE(s.status("fit").current) << "an earlier version wrote less";
+  EXPECT_THAT(s.graph().changes(*s.graph().latest("fit"), now), IsEmpty());
 }
 
 TEST(TaskGraph, ASearchWithASimulatorHoldsForThatSimulatorAndForTheVersionItWrote) {
@@ -365,7 +399,8 @@ TEST(TaskGraph, TheSecondCampaignIsComparedWithoutWhatTheUserTookOutOfIt) {
   const auto verified = [&] {
     const CampaignState state = CampaignState::read(session, ids[0]);
     const TaskLedger ledger;
-    const TaskWork work = prepareTask("verify", state.tasks(session, ledger), TaskInputs::of(session, state));
+    const TaskWork work =
+        prepareTask("verify", state.tasks(session, ledger), TaskInputs::of(state.tasks(session, ledger), state));
     return work(job, TaskOutput::Payload).payload;
   };
   const nlohmann::json all = verified();

@@ -2,12 +2,11 @@
 // A session with one campaign of images, and results put into it without working anything out.
 #pragma once
 
-#include <map>
 #include <memory>
-#include <optional>
 #include <string>
 
 #include "core/session/session.h"
+#include "core/tasks/campaign_state.h"
 #include "core/tasks/steps.h"
 #include "core/tasks/task_graph.h"
 #include "core/tasks/task_options.h"
@@ -29,14 +28,9 @@ class TaskSession {
     session_.addCaptureRows(id_, "fiducials.csv", "time_s,image", {std::to_string(number) + "," + name});
   }
   [[nodiscard]] TaskGraph graph() {
-    latest_.clear();
+    results_ = {};
     return {session_, id_, std::make_shared<Campaign>(Campaign::read(session_.campaign(id_).folder)),
-            [this](const std::string& kind) -> const StoredResult* {
-              auto found = latest_.find(kind);
-              if (found == latest_.end()) found = latest_.emplace(kind, session_.latestResult(id_, kind)).first;
-              return found->second ? &*found->second : nullptr;
-            },
-            ledger_};
+            [this](const TaskGraph& graph, const std::string& kind) { return results_.latest(graph, kind); }, ledger_};
   }
   [[nodiscard]] TaskStatus status(const std::string& task) { return graph().status(task); }
   [[nodiscard]] StepReport step(StepId which) {
@@ -56,7 +50,7 @@ class TaskSession {
   TaskLedger ledger_;
 
  private:
-  std::map<std::string, std::optional<StoredResult>> latest_;
+  CampaignResults results_;
 };
 
 }  // namespace spindrift::testing

@@ -11,6 +11,7 @@
 #include "core/base/text.h"
 #include "core/machine/nine_parameter_model.h"
 #include "core/machine/observation.h"
+#include "tests/widgets/support/select_campaign.h"
 #include "tests/widgets/support/story_support.h"
 #include "widgets/commands/commands.h"
 #include "widgets/jobs/job_bar.h"
@@ -46,7 +47,7 @@ class CampaignsTest : public StoryTest {
     select(first_);
   }
   void select(std::int64_t campaign) {
-    session().selectCampaign(campaign);
+    selectCampaign(session(), campaign);
     QTest::qWait(1);
   }
   SessionModel& session() { return window_->session(); }
@@ -331,6 +332,31 @@ TEST_F(CampaignsTest, AFitThatIsStoredIsWorkedOutAgainBesideTheWindow) {
   (void)window_->currentPage();
   wait();
   EXPECT_TRUE(begun.contains(QStringLiteral("Reading the fit"))) << begun.join(", ").toStdString();
+}
+
+TEST_F(CampaignsTest, AFitWithTheOptionsOfAnEarlierVersionIsWorkedOutAgainOnce) {
+  openTwo();
+  run(StepId::Model);
+  PendingResult earlier = session().begin("fit");
+  for (auto it = earlier.origin.options.begin(); it != earlier.origin.options.end();)
+    it = it.key() == "model" ? std::next(it) : earlier.origin.options.erase(it);
+  window_->workflow().goTo(StepId::Report);
+  wait();
+  session().finish(earlier, session().latest("fit")->payload);
+  ASSERT_TRUE(session().state("fit").current) << "it wrote less";
+  const QString folder = QString::fromStdString(session().folder().string());
+  window_->closeSession();
+  window_->open(folder);
+  wait();
+  int begun = 0;
+  QObject here;
+  QObject::connect(&window_->jobs(), &JobRunner::started, &here,
+                   [&](const QString& title) { begun += title == QLatin1String("Reading the fit") ? 1 : 0; });
+  window_->workflow().goTo(StepId::Model);
+  (void)window_->currentPage();
+  QTest::qWait(500);
+  wait();
+  EXPECT_EQ(begun, 1);
 }
 
 TEST_F(CampaignsTest, AFileThatWasChangedWhileTheSessionWasClosedIsSaidAndItsResultsAreOutdated) {

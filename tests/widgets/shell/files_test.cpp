@@ -19,6 +19,7 @@
 #include "core/base/error.h"
 #include "core/machine/campaign.h"
 #include "tests/support/source_folder.h"
+#include "tests/widgets/support/select_campaign.h"
 #include "tests/widgets/support/story_support.h"
 #include "widgets/jobs/job_bar.h"
 #include "widgets/pages/page.h"
@@ -175,7 +176,7 @@ TEST_F(FilesTest, FilesThatWereNotLookedAtAreNamedWhenAnotherCampaignIsChosen) {
     answered = items;
     ++answers;
   });
-  window_->session().selectCampaign(first);
+  selectCampaign(window_->session(), first);
   ASSERT_EQ(answers, 1) << "at once, and once";
   ASSERT_EQ(answered.size(), 3U);
   for (const IncomingItem& item : answered) {

@@ -27,6 +27,7 @@
 #include "core/machine/observation.h"
 #include "core/tasks/task_options.h"
 #include "tests/support/source_folder.h"
+#include "tests/widgets/support/select_campaign.h"
 #include "tests/widgets/support/story_support.h"
 #include "widgets/commands/commands.h"
 #include "widgets/common/parts.h"
@@ -183,7 +184,7 @@ class JobsMidway : public StoryTest, public ::testing::WithParamInterface<Case> 
     QCoreApplication::processEvents();
     ASSERT_TRUE(waitForJobs(*window_, enough_s));
   }
-  void select(std::int64_t campaign) { session_().selectCampaign(campaign); }
+  void select(std::int64_t campaign) { selectCampaign(session_(), campaign); }
   void goTo(StepId step) {
     window_->workflow().goTo(step);
     settle();

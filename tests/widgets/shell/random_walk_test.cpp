@@ -31,6 +31,7 @@
 #include "core/tasks/steps.h"
 #include "core/tasks/task_options.h"
 #include "core/workflows/compensation_workflow.h"
+#include "tests/widgets/support/select_campaign.h"
 #include "tests/widgets/support/story_support.h"
 #include "widgets/commands/commands.h"
 #include "widgets/models/rows_model.h"
@@ -281,7 +282,7 @@ class RandomWalk : public StoryTest {
     const std::int64_t at_hand = session().campaignId();
     for (const auto& [id, state] : first_) {
       wait();
-      session().selectCampaign(id);
+      selectCampaign(session(), id);
       wait();
       const nlohmann::json before = stateOf(id);
       const int most = window_->undoStack().count();
@@ -297,7 +298,7 @@ class RandomWalk : public StoryTest {
       EXPECT_EQ(after, before) << nlohmann::json::diff(before, after).dump();
     }
     wait();
-    session().selectCampaign(at_hand);
+    selectCampaign(session(), at_hand);
     wait();
   }
 

@@ -22,6 +22,7 @@
 #include "core/base/atomic_file.h"
 #include "core/tasks/task_options.h"
 #include "tests/core/probing/probing_machines.h"
+#include "tests/widgets/support/select_campaign.h"
 #include "tests/widgets/support/story_support.h"
 #include "widgets/commands/commands.h"
 #include "widgets/common/parts.h"
@@ -143,7 +144,7 @@ class UndoTest : public StoryTest {
                          const std::function<QWidget*()>& expect_empty) {
     const std::int64_t first = session().campaignId();
     const auto look = [&](const char* when) {
-      session().selectCampaign(first);
+      selectCampaign(session(), first);
       settle();
       expect_kept(when)->close();
       settle();
@@ -355,7 +356,7 @@ TEST_F(UndoTest, AnEffectThatIsBeingEditedIsLostByNothing) {
   window_->workflow().goTo(StepId::Discrepancy);
   settle();
   EXPECT_FALSE(page->effects()->editing()) << "it belongs to the other campaign";
-  session().selectCampaign(first);
+  selectCampaign(session(), first);
   settle();
   expectOpen("another campaign");
   undo();
@@ -600,13 +601,13 @@ TEST_F(UndoTest, TheNameOfTheOperatorIsTakenBackAndBelongsToItsCampaign) {
   settle();
   EXPECT_EQ(name(), "A. Turner") << "a campaign that is added begins with the one who adds it";
   give("B. Miller");
-  session().selectCampaign(first);
+  selectCampaign(session(), first);
   settle();
   EXPECT_EQ(name(), "A. Turner");
   undo();
   EXPECT_EQ(name(), "");
   EXPECT_EQ(page->operatorName()->text(), QString());
-  session().selectCampaign(session().campaigns().back().id);
+  selectCampaign(session(), session().campaigns().back().id);
   settle();
   EXPECT_EQ(name(), "B. Miller");
 }

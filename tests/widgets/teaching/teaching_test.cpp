@@ -130,8 +130,9 @@ class ExerciseTest : public ::testing::Test {
     QSettings().remove(QStringLiteral("exercises"));
     JobContext job;
     writeExercise(exercise_, folder_ / "campaign", job);
-    session_.createSession(folder_ / "session");
-    session_.selectCampaign(session_.session()->importCampaign(folder_ / "campaign", job));
+    auto session = std::make_unique<Session>(Session::create(folder_ / "session"));
+    const std::int64_t campaign = session->importCampaign(folder_ / "campaign", job);
+    session_.adopt(std::move(session), campaign);
   }
   void wait() {
     ASSERT_TRUE(QTest::qWaitFor([this] { return !jobs_.busy(); }, 60'000));

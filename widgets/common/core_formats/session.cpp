@@ -11,6 +11,7 @@ std::span<const char* const> spindrift::gui::core_formats::session() noexcept {
     QT_TRANSLATE_NOOP("core", " {} now in the folder \"removed\"."),
     QT_TRANSLATE_NOOP("core", " {} removed."),
     QT_TRANSLATE_NOOP("core", "The session was not closed the last time; it is as it was left: {} and {} are there."),
+    QT_TRANSLATE_NOOP("core", "a result"),
     QT_TRANSLATE_NOOP("core", "and {} more"),
     QT_TRANSLATE_NOOP("core", "are missing"),
     QT_TRANSLATE_NOOP("core", "cannot be copied into the session: {}."),

@@ -97,6 +97,7 @@ std::span<const char* const> spindrift::gui::core_formats::tasks() noexcept {
     QT_TRANSLATE_NOOP("core", "not met"),
     QT_TRANSLATE_NOOP("core", "not started"),
     QT_TRANSLATE_NOOP("core", "offsets of the clocks"),
+    QT_TRANSLATE_NOOP("core", "reading the results"),
     QT_TRANSLATE_NOOP("core", "reasons of exclusions"),
     QT_TRANSLATE_NOOP("core", "stored observations"),
     QT_TRANSLATE_NOOP("core", "the check of the jogs"),

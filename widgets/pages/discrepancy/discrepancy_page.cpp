@@ -310,12 +310,6 @@ void DiscrepancyPage::change(const QString& what, const EffectOptions& after) {
                                          optionsJson(after), [this] { choiceChanged(); }));
 }
 
-bool DiscrepancyPage::showStored() {
-  if (!session().takeEarlier(discrepancy_result)) return false;
-  refresh();
-  return true;
-}
-
 void DiscrepancyPage::changeEffects(const QString& what, const EffectOptions& after, bool typed) {
   std::unique_ptr<QUndoCommand> change =
       std::make_unique<OptionsCommand>(session(), what, session().campaignKey(option_keys::discrepancy),
@@ -325,7 +319,6 @@ void DiscrepancyPage::changeEffects(const QString& what, const EffectOptions& af
 }
 
 void DiscrepancyPage::effectsChanged() {
-  if (showStored()) return;
   context().workflow.refresh();
   refresh();
 }
@@ -374,10 +367,10 @@ void DiscrepancyPage::knowTitles() {
 }
 
 void DiscrepancyPage::choiceChanged() {
-  // Undo must not wait for a search that was made before.
-  if (showStored()) return;
   context().workflow.refresh();
   refresh();
+  // Undo does not wait: a search that was made with these effects before holds again.
+  if (session().state(discrepancy_result).current) return;
   search();
   if (session().isRunning(discrepancy_result)) {
     callout()->setAction({}, {});

@@ -65,8 +65,6 @@ class DiscrepancyPage : public Page {
   void search();
   /// After the choice has changed: a stored result with the same choice is shown again, else the search is run.
   void choiceChanged();
-  /// A stored result with the choice as it is now is shown again; false: there is none.
-  bool showStored();
   void change(const QString& what, const EffectOptions& after);
   /// After the list of effects has changed: nothing is searched before somebody asks for it.
   void effectsChanged();

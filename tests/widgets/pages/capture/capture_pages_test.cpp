@@ -17,6 +17,7 @@
 #include "core/simulation/virtual_microscope.h"
 #include "tests/core/probing/probing_machines.h"
 #include "tests/widgets/support/page_test.h"
+#include "tests/widgets/support/select_campaign.h"
 #include "widgets/commands/commands.h"
 #include "widgets/common/parts.h"
 #include "widgets/jobs/job_bar.h"
@@ -114,7 +115,7 @@ TEST_F(CapturePages, PicturesThatWereTakenStayWithTheirCampaign) {
   const std::int64_t second = window_->session().session()->newCampaign("second", "2026-02-01T08:00:00Z", mill_text);
   for (int i = 0; i < 3; ++i)
     service().take(QStringLiteral("picture"), std::make_shared<const GrayImage>(picture(2 + i)));
-  window_->session().selectCampaign(second);
+  selectCampaign(window_->session(), second);
   EXPECT_EQ(incomingJournal(*window_->session().session(), first).size(), 3U);
   EXPECT_EQ(incomingJournal(*window_->session().session(), second).size(), 0U);
 }

@@ -19,6 +19,7 @@
 #include <cmath>
 
 #include "core/base/atomic_file.h"
+#include "tests/widgets/support/select_campaign.h"
 #include "tests/widgets/support/story_support.h"
 #include "widgets/common/parts.h"
 #include "widgets/pages/discrepancy/discrepancy_page.h"
@@ -332,19 +333,19 @@ TEST_F(SimulationPanelTest, AVersionThatIsReadyLaterIsThatOfItsCampaign) {
   window_->addCampaign(QString::fromStdString(other.string()));
   wait();
   const std::int64_t second = session.campaignId();
-  session.selectCampaign(first);
+  selectCampaign(session, first);
   window_->workflow().goTo(StepId::Discrepancy);
   wait();
   const std::string before = currentSimulator(session);
   const QString folder = panel_->proposedFolder();
   panel_->putInto(folder);
   EXPECT_TRUE(session.tasks().status("simulation").state == TaskState::Running) << "the tasks know of it";
-  session.selectCampaign(second);
+  selectCampaign(session, second);
   wait();
   EXPECT_TRUE(session.session()->results(second).empty());
   EXPECT_TRUE(currentSimulator(session).ends_with("sim/simulator.json"));
   EXPECT_FALSE(window_->undoStack().canUndo()) << "nothing was done on this one";
-  session.selectCampaign(first);
+  selectCampaign(session, first);
   wait();
   EXPECT_NE(currentSimulator(session), before) << "written and chosen";
   EXPECT_EQ(simulatorFile(session, currentSimulator(session)),

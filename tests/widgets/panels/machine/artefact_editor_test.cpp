@@ -6,6 +6,7 @@
 
 #include "tests/core/probing/probing_machines.h"
 #include "tests/widgets/support/page_test.h"
+#include "tests/widgets/support/select_campaign.h"
 #include "widgets/common/parts.h"
 #include "widgets/pages/machine/machine_page.h"
 #include "widgets/panels/machine/artefact_editor.h"
@@ -74,11 +75,11 @@ TEST_F(ArtefactEditorTest, WhatIsNotAppliedSurvivesPagesCampaignsAndSessions) {
 
   const std::int64_t second =
       window_->session().session()->newCampaign("other", "2026-01-31T09:00:00Z", probing_test::holeMachineText());
-  window_->session().selectCampaign(second);
+  selectCampaign(window_->session(), second);
   window_->workflow().goTo(StepId::Machine);
   EXPECT_NE(typed(), QStringLiteral("not a number")) << "it belongs to the other campaign";
   EXPECT_FALSE(editor->applyButton()->isEnabled());
-  window_->session().selectCampaign(first);
+  selectCampaign(window_->session(), first);
   window_->workflow().goTo(StepId::Machine);
   EXPECT_EQ(typed(), QStringLiteral("not a number"));
 

@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Choosing a campaign of very many readings: the window answers while it is read, says that it reads, shows nothing of
+// it under another name, and goes to the one that was chosen last.
+#include <gtest/gtest.h>
+
+#include <QComboBox>
+#include <QElapsedTimer>
+#include <QPushButton>
+#include <QTest>
+#include <cstdio>
+
+#include "core/machine/observation.h"
+#include "tests/widgets/support/event_loop_watch.h"
+#include "tests/widgets/support/story_support.h"
+#include "widgets/commands/commands.h"
+#include "widgets/jobs/job_bar.h"
+
+namespace spindrift::gui {
+namespace {
+
+constexpr double allowed_large_ms = 100.0;
+/// An edit of the machine or the clocks is a command that is done at once: the readings are copied, not read.
+constexpr double allowed_copying_ms = 200.0;
+
+class LargeCampaignTest : public StoryTest {
+ protected:
+  /// A small campaign, and a large one that is at hand.
+  void openBoth(int readings) {
+    const int states = readings / 18;
+    const std::filesystem::path small = writeStoryCampaign(folder_, Hidden::Nothing, false);
+    std::filesystem::rename(small, folder_ / "small");
+    const std::filesystem::path large = writeStoryCampaign(folder_, Hidden::Nothing, false, {states, 30'000});
+    open(folder_ / "small", StepId::Machine);
+    small_ = session().campaignId();
+    window_->addCampaign(QString::fromStdString(large.string()));
+    wait();
+    large_ = session().campaignId();
+    ASSERT_NE(small_, large_);
+    ASSERT_TRUE(session().campaign()->observations.has_value());
+    ASSERT_EQ(session().campaign()->observations->rows.size(), static_cast<std::size_t>(states) * 18);
+  }
+  /// As openBoth, with the small one at hand.
+  void openSmall(int readings) {
+    openBoth(readings);
+    choose(small_);
+    wait();
+    ASSERT_EQ(session().campaignId(), small_);
+  }
+  /// What is shown is the small campaign, under its name, and the window says that the large one is read.
+  void expectSmallShownWhileReading() {
+    EXPECT_EQ(session().campaignId(), small_);
+    EXPECT_EQ(box()->currentData().toLongLong(), small_);
+    EXPECT_EQ(session().campaign()->observations->rows.size(), 24U * 18U);
+    EXPECT_TRUE(window_->jobs().title().startsWith(QStringLiteral("Reading"))) << window_->jobs().title().toStdString();
+    EXPECT_FALSE(window_->jobBar()->cancelButton()->isHidden());
+  }
+  SessionModel& session() { return window_->session(); }
+  [[nodiscard]] QComboBox* box() {
+    for (auto* box : window_->findChildren<QComboBox*>())
+      if (box->accessibleName() == QLatin1String("Campaign")) return box;
+    ADD_FAILURE() << "no list of campaigns";
+    return nullptr;
+  }
+  /// As with the mouse.
+  void choose(std::int64_t campaign) {
+    QComboBox* list = box();
+    list->setCurrentIndex(list->findData(QVariant::fromValue<qlonglong>(campaign)));
+    Q_EMIT list->activated(list->currentIndex());
+  }
+  void watch(const QString& name, const std::function<void()>& action) {
+    watch_.during(name, action, [this] { wait(); });
+  }
+
+  EventLoopWatch watch_;
+  std::int64_t small_ = 0;
+  std::int64_t large_ = 0;
+};
+
+TEST_F(LargeCampaignTest, TheWindowAnswersWhileItIsRead) {
+  openBoth(200'000);
+  watch(QStringLiteral("the small one"), [&] { choose(small_); });
+  ASSERT_EQ(session().campaignId(), small_);
+  watch(QStringLiteral("the large one"), [&] { choose(large_); });
+  ASSERT_EQ(session().campaignId(), large_);
+  nlohmann::json machine = session().campaign()->machine.source;
+  machine["name"] = "another name";
+  watch(QStringLiteral("the machine edited"),
+        [&] { window_->undoStack().push(new MachineCommand(session(), machine)); });
+  EXPECT_EQ(session().campaign()->machine.name, "another name");
+  watch(QStringLiteral("a clock moved"), [&] { session().setClockOffsets({{"probe", {12.0, 1.0, "entered"}}}); });
+  EXPECT_EQ(session().campaign()->observations->rows.front().time_s, 12.0);
+  for (const EventLoopWatch::Turn& turn : watch_.longest()) {
+    const bool copied =
+        turn.during.startsWith(QStringLiteral("the machine")) || turn.during.contains(QStringLiteral("clock"));
+    const double allowed = (copied ? allowed_copying_ms : allowed_large_ms) * watch_.slowdown();
+    std::printf("%-24s %6.0f ms (allowed: %.0f)\n", turn.during.toStdString().c_str(), turn.processor_ms, allowed);
+    EXPECT_LT(turn.processor_ms, allowed) << turn.during.toStdString();
+  }
+}
+
+TEST_F(LargeCampaignTest, WhatIsDoneMeanwhileBelongsToTheCampaignThatIsShown) {
+  openSmall(200'000);
+  choose(large_);
+  expectSmallShownWhileReading();
+  window_->undoStack().push(new ExcludeCommand(session(), {QStringLiteral("M3/P2/EZ")}, QStringLiteral("disturbed")));
+  const PendingResult pending = session().begin("fit");
+  wait();
+  EXPECT_EQ(session().campaignId(), large_);
+  EXPECT_EQ(box()->currentData().toLongLong(), large_);
+  EXPECT_TRUE(session().excluded().empty());
+  EXPECT_FALSE(session().finish(pending, {{"value", 1}}));
+  EXPECT_FALSE(session().state("fit").there);
+  EXPECT_EQ(session().session()->exclusions(small_).size(), 1U);
+  EXPECT_TRUE(session().session()->exclusions(large_).empty());
+  EXPECT_EQ(session().session()->latestResult(small_, "fit")->payload.at("value"), 1);
+}
+
+TEST_F(LargeCampaignTest, TheLastChoiceCountsAndWaitsForNoOther) {
+  openSmall(200'000);
+  std::filesystem::copy(folder_ / "small", folder_ / "third", std::filesystem::copy_options::recursive);
+  (void)folder_.write("third/note.txt", "so that its content is another");
+  window_->addCampaign(QString::fromStdString((folder_ / "third").string()));
+  wait();
+  const std::int64_t third = session().campaignId();
+  choose(small_);
+  wait();
+  QElapsedTimer timer;
+  timer.start();
+  choose(large_);
+  wait();
+  const qint64 large_ms = timer.restart();
+  choose(small_);
+  wait();
+  // The one at hand again: what is read is not wanted any more.
+  choose(large_);
+  expectSmallShownWhileReading();
+  choose(small_);
+  EXPECT_FALSE(window_->jobs().busy());
+  wait();
+  EXPECT_EQ(session().campaignId(), small_);
+  // Another one.
+  choose(large_);
+  expectSmallShownWhileReading();
+  timer.restart();
+  choose(third);
+  ASSERT_TRUE(QTest::qWaitFor([&] { return session().campaignId() == third; }, 60'000));
+  EXPECT_LT(timer.elapsed(), large_ms);
+  wait();
+  EXPECT_EQ(session().campaignId(), third) << "the large one does not come after it";
+  // With the button beside the progress.
+  choose(large_);
+  window_->jobBar()->cancelButton()->click();
+  wait();
+  EXPECT_EQ(session().campaignId(), third);
+}
+
+TEST_F(LargeCampaignTest, AnotherSessionAndEditsMeanwhileAreNotUndoneByWhatWasRead) {
+  openSmall(200'000);
+  // Of the campaign that is being read: its machine is another when it comes.
+  choose(large_);
+  nlohmann::json machine = session().campaign()->machine.source;
+  machine["name"] = "edited meanwhile";
+  session().session()->setSetting(Session::machineKey(large_), machine);
+  session().session()->exclude(large_, "M3/P2/EZ", "disturbed");
+  wait();
+  ASSERT_EQ(session().campaignId(), large_);
+  EXPECT_EQ(session().campaign()->machine.name, "edited meanwhile");
+  EXPECT_EQ(session().excluded().size(), 1U);
+  EXPECT_EQ(session().observations()->rows[3 * 18 + 5].use, ObservationUse::Exclude);
+  choose(small_);
+  wait();
+  choose(large_);
+  window_->closeSession();
+  wait();
+  EXPECT_FALSE(session().isOpen());
+  EXPECT_TRUE(window_->welcomeShown());
+}
+
+}  // namespace
+}  // namespace spindrift::gui
