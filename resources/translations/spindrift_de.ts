@@ -20089,6 +20089,10 @@ ihrem Ordner und führen nicht hinaus.
         <source>not looked at, because another campaign was chosen meanwhile.</source>
         <translation>nicht angesehen, weil inzwischen eine andere Kampagne gewählt wurde.</translation>
     </message>
+    <message>
+        <source>Pictures of the camera that cannot be stored: %1. %2</source>
+        <translation>Bilder der Kamera, die nicht gespeichert werden können: %1. %2</translation>
+    </message>
 </context>
 <context>
     <name>spindrift::gui::IsoPanel</name>
@@ -21268,10 +21272,6 @@ ihrem Ordner und führen nicht hinaus.
     <message>
         <source>A machine is being compensated. Quitting fades its compensation to zero and ends the loop; what was measured is kept.</source>
         <translation>Eine Maschine wird gerade kompensiert. Beim Beenden klingt ihre Kompensation auf null ab und der Regelkreis endet; was gemessen wurde, bleibt erhalten.</translation>
-    </message>
-    <message>
-        <source>&quot;%1&quot; is still running. Quitting cancels it; everything that was captured and every result that is done is kept.</source>
-        <translation>„%1“ läuft noch. Beenden bricht es ab; alles Aufgenommene und jedes fertige Ergebnis bleibt erhalten.</translation>
     </message>
     <message>
         <source>Quit</source>

@@ -85,6 +85,14 @@ bool JobRunner::working() const {
   return work.current != nullptr || !work.queue.empty();
 }
 
+QString JobRunner::firstOf(JobQueue queue) const {
+  const Lane& of = lanes_[static_cast<std::size_t>(queue)];
+  if (of.current != nullptr && !of.current->job.quiet) return of.current->job.title;
+  const auto found =
+      std::find_if(of.queue.begin(), of.queue.end(), [](const Waiting& waiting) { return !waiting.job.quiet; });
+  return found == of.queue.end() ? QString() : found->job.title;
+}
+
 /// What the job bar tells of: long work before what is only to be shown, and both before batches.
 const JobRunner::Running* JobRunner::shown() const {
   for (const Lane& lane : lanes_)

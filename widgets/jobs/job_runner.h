@@ -81,6 +81,8 @@ class JobRunner : public QObject {
   [[nodiscard]] bool busy() const;
   /// Long work runs or waits.
   [[nodiscard]] bool working() const;
+  /// The first job of a queue that runs or waits and is not quiet, by its title; empty: there is none.
+  [[nodiscard]] QString firstOf(JobQueue queue) const;
   [[nodiscard]] QString title() const;
   [[nodiscard]] int waiting() const;
   /// Running ones first, then in the order in which they will run; quiet ones are left out.

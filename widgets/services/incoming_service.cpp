@@ -34,7 +34,11 @@ IncomingService::IncomingService(SessionModel& session) : QObject(&session), ses
   clock_.start();
   timer_.setInterval(500);
   connect(&timer_, &QTimer::timeout, this, &IncomingService::look);
-  connect(&session_, &SessionModel::campaignLeaving, this, &IncomingService::finishPictures);
+  connect(&session_, &SessionModel::campaignLeaving, this, [this] {
+    const QString lost = finishPictures();
+    taken_.clear();
+    if (!lost.isEmpty()) Q_EMIT session_.storingFailed(lost);
+  });
   connect(&session_, &SessionModel::campaignChanged, this, &IncomingService::follow);
   follow();  // the campaign may be there already
 }
@@ -222,7 +226,7 @@ void IncomingService::keepPicture(const std::string& name, const QImage& picture
   pictured_.pop_front();
 }
 
-void IncomingService::record(const ExaminedFile& found) {
+bool IncomingService::record(const ExaminedFile& found) {
   ExaminedFile examined = found;
   if (!examined.row.empty() && done().contains(examined.item.plan_item)) {
     // Another one was faster: two pictures taken at once.
@@ -239,10 +243,11 @@ void IncomingService::record(const ExaminedFile& found) {
     failure_.clear();
   } catch (const InputError& e) {
     failure_ = coreSentence(e.what());
-    return;
+    return false;
   }
   intake_.remember(examined);
   if (!examined.row.empty()) Q_EMIT planProgressed();
+  return true;
 }
 
 void IncomingService::feed(const ExaminedFile& examined) {
@@ -303,13 +308,19 @@ void IncomingService::take(const QString& name, std::shared_ptr<const GrayImage>
 }
 
 /// A picture is nowhere but in memory until it is recorded.
-void IncomingService::finishPictures() {
-  if (session_.campaign() == nullptr) return;
-  for (const Taken& t : std::exchange(taken_, {})) {
+QString IncomingService::finishPictures() {
+  if (session_.campaign() == nullptr) return {};
+  QString why;
+  for (Taken& t : std::exchange(taken_, {})) {
     const ExaminedFile examined = examineImage(encodePng(*t.image), t.id, t.written_ns, *t.context);
     intake_.show(examined.item);
-    record(examined);
+    if (record(examined)) continue;
+    why = failure_;
+    taken_.push_back(std::move(t));
   }
+  if (taken_.empty()) return {};
+  Q_EMIT changed();
+  return tr("Pictures of the camera that cannot be stored: %1. %2").arg(taken_.size()).arg(why);
 }
 
 void IncomingService::takeFiles(const QStringList& files, std::function<void(const std::vector<IncomingItem>&)> done) {

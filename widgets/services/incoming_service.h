@@ -44,8 +44,9 @@ class IncomingService : public QObject {
   [[nodiscard]] const TouchFeed* touches() const { return intake_.touches(); }
   /// A picture of a camera, checked and taken over like a file.
   void take(const QString& name, std::shared_ptr<const GrayImage> image);
-  /// Records what `take` was given and has not got to yet: before the campaign is left, or the program.
-  void finishPictures();
+  /// Records what `take` was given and has not got to yet: before the campaign is left, or the program. What cannot be
+  /// recorded stays in memory, and one sentence says so; empty: nothing is left.
+  QString finishPictures();
   /// Files that were given by hand, one after the other: checked, copied and taken over as those that arrive in the
   /// watched folder. `done` gets what became of each, also when another campaign is chosen meanwhile: those that were
   /// not looked at say so.
@@ -84,7 +85,8 @@ class IncomingService : public QObject {
   void takeNext();
   void answerHanded(IncomingItem item);
   void giveUpHanded();
-  void record(const ExaminedFile& found);
+  /// False: it could not be stored; `failure_` says why.
+  bool record(const ExaminedFile& found);
   void keepPicture(const std::string& name, const QImage& picture);
   void feed(const ExaminedFile& examined);
   void flushTouches(bool all);

@@ -176,18 +176,18 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent), workflow_(session
   });
   connect(&session_, &SessionModel::storingFailed, this, &MainWindow::tell);
   connect(welcome_, &WelcomePage::demoChosen, this, [this](const QString& name) { startDemo(name); });
-  connect(welcome_, &WelcomePage::recentChosen, this, &MainWindow::open);
+  connect(welcome_, &WelcomePage::recentChosen, this, &MainWindow::askAndOpen);
   connect(welcome_, &WelcomePage::openSession, this, [this] {
     const QString folder = QFileDialog::getExistingDirectory(
         this, tr("Open a session"),
         lastFolder(QStringLiteral("session"), QString::fromStdString(sessionsFolder().string())));
     if (folder.isEmpty()) return;
     rememberFolder(QStringLiteral("session"), QFileInfo(folder).absolutePath());
-    open(folder);
+    askAndOpen(folder);
   });
   connect(welcome_, &WelcomePage::openCampaign, this, [this] {
     const QString folder = askForCampaign(tr("Open a campaign folder"));
-    if (!folder.isEmpty()) open(folder);
+    if (!folder.isEmpty()) askAndOpen(folder);
   });
   connect(welcome_, &WelcomePage::openPlant, this, &MainWindow::openPlant);
   connect(welcome_, &WelcomePage::newMeasurement, this, &MainWindow::newMeasurement);
@@ -779,7 +779,7 @@ void MainWindow::exportTo(const QString& folder) {
 void MainWindow::newMeasurement() {
   const auto campaign = session_.campaign();
   NewMeasurementDialog dialog(campaign == nullptr ? std::nullopt : std::optional(campaign->machine.source), this);
-  if (dialog.exec() == QDialog::Accepted) startMeasurement(dialog.machine());
+  if (dialog.exec() == QDialog::Accepted && maySessionBeLeft()) startMeasurement(dialog.machine());
 }
 
 void MainWindow::startMeasurement(const nlohmann::json& machine) {
@@ -837,20 +837,47 @@ void MainWindow::restoreSplitters(Page& page) {
   }
 }
 
+namespace {
+
+QString stillRunning(const QString& job) {
+  return MainWindow::tr(
+             "\"%1\" is still running and will be cancelled; everything that was captured and every result "
+             "that is done is kept.")
+      .arg(job);
+}
+
+}  // namespace
+
+QStringList MainWindow::lostWithSession() {
+  QStringList lost;
+  if (const QString pictures = IncomingService::of(session_).finishPictures(); !pictures.isEmpty()) lost << pictures;
+  if (const QString work = jobs_.firstOf(JobQueue::Work); !work.isEmpty()) lost << stillRunning(work);
+  return lost;
+}
+
+bool MainWindow::maySessionBeLeft() {
+  if (!session_.isOpen()) return true;
+  const QStringList lost = lostWithSession();
+  return lost.isEmpty() || goAhead({tr("Another session"), lost.join(QLatin1Char('\n')), tr("Leave this session"),
+                                    &Preferences::ask_before_quitting},
+                                   this);
+}
+
+void MainWindow::askAndOpen(const QString& folder) {
+  if (maySessionBeLeft()) open(folder);
+}
+
 void MainWindow::closeEvent(QCloseEvent* event) {
-  const bool compensating = ClosedLoopService::of(session_).running();
-  IncomingService::of(session_).finishPictures();
-  if (compensating || jobs_.working()) {
-    const QString sentence =
-        compensating ? tr("A machine is being compensated. Quitting fades its compensation to zero and ends the loop; "
-                          "what was measured is kept.")
-                     : tr("\"%1\" is still running. Quitting cancels it; everything that was captured and every result "
-                          "that is done is kept.")
-                           .arg(jobs_.title());
-    if (!goAhead({tr("Quit"), sentence, tr("Quit"), &Preferences::ask_before_quitting}, this)) {
-      event->ignore();
-      return;
-    }
+  QStringList lost = lostWithSession();
+  if (const QString batch = jobs_.firstOf(JobQueue::Batch); !batch.isEmpty()) lost << stillRunning(batch);
+  if (ClosedLoopService::of(session_).running())
+    lost.prepend(
+        tr("A machine is being compensated. Quitting fades its compensation to zero and ends the loop; what was "
+           "measured is kept."));
+  if (!lost.isEmpty() &&
+      !goAhead({tr("Quit"), lost.join(QLatin1Char('\n')), tr("Quit"), &Preferences::ask_before_quitting}, this)) {
+    event->ignore();
+    return;
   }
   for (const auto& [entry, page] : pages_) {
     if (page == nullptr) continue;

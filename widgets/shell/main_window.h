@@ -147,6 +147,12 @@ class MainWindow : public QMainWindow {
   void fillRecentMenu();
   [[nodiscard]] std::filesystem::path reportFile();  ///< as PDF; empty: none was written
   void addSampleMenu(QMenu* menu);
+  /// Asks before anything is lost with the session that is open (another is to be opened, or none): work that runs,
+  /// pictures that cannot be stored. True: go ahead.
+  [[nodiscard]] bool maySessionBeLeft();
+  /// What would be lost, one sentence each; empty: nothing.
+  [[nodiscard]] QStringList lostWithSession();
+  void askAndOpen(const QString& folder);
   /// Asks for a printer and prints with `print`.
   void askAndPrint(const std::function<void(QPrinter&)>& print);
   void showStep();

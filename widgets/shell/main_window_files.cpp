@@ -57,7 +57,7 @@ void MainWindow::fillRecentMenu() {
   recent_menu_->clear();
   for (const QString& folder : recent) {
     const QFileInfo info(folder);
-    QAction* action = recent_menu_->addAction(menuText(info.fileName()), this, [this, folder] { open(folder); });
+    QAction* action = recent_menu_->addAction(menuText(info.fileName()), this, [this, folder] { askAndOpen(folder); });
     action->setToolTip(QDir::toNativeSeparators(folder));
     action->setStatusTip(action->toolTip());
   }
@@ -74,8 +74,9 @@ void MainWindow::fillRecentMenu() {
 
 void MainWindow::addSampleMenu(QMenu* menu) {
   for (const Demo& demo : demos()) {
-    QAction* action = menu->addAction(icon(demo.icon), menuText(demo.title), this,
-                                      [this, name = demo.name] { startDemo(QString::fromStdString(name)); });
+    QAction* action = menu->addAction(icon(demo.icon), menuText(demo.title), this, [this, name = demo.name] {
+      if (maySessionBeLeft()) startDemo(QString::fromStdString(name));
+    });
     action->setStatusTip(demo.sentence);
   }
   menu->addSeparator();
@@ -134,7 +135,7 @@ void MainWindow::take(const QStringList& files) {
     return;
   }
   if (dropped.kind == Dropped::Kind::Open) {
-    open(dropped.files.front());
+    askAndOpen(dropped.files.front());
     return;
   }
   workflow_.goTo(StepId::Capture);

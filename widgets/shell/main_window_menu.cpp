@@ -93,7 +93,7 @@ void MainWindow::buildMenu() {
         QFileDialog::getOpenFileName(this, tr("Open a log over time"), lastFolder(kind), tr("Log (*.csv)"));
     if (file.isEmpty()) return;
     rememberFolder(kind, file);
-    openLog(file);
+    if (maySessionBeLeft()) openLog(file);
   });
   recent_menu_ = session_menu->addMenu(icon("clock"), tr("&Recent sessions"));
   connect(session_menu, &QMenu::aboutToShow, this, &MainWindow::fillRecentMenu);
@@ -118,7 +118,9 @@ void MainWindow::buildMenu() {
          return reportFile().empty() ? tr("The report has not been written yet; the page Report does.") : QString();
        });
   session_menu->addSeparator();
-  add(session_menu, tr("First &screen"), "home", QKeySequence(tr("Ctrl+H")), [this] { closeSession(); });
+  add(session_menu, tr("First &screen"), "home", QKeySequence(tr("Ctrl+H")), [this] {
+    if (maySessionBeLeft()) closeSession();
+  });
   add(session_menu, tr("&Quit"), "x", QKeySequence::Quit, [this] { close(); });
 
   QMenu* edit = menuBar()->addMenu(tr("&Edit"));
@@ -318,7 +320,9 @@ ArtefactDesigner* MainWindow::openDesigner() {
 ExerciseDialog* MainWindow::openExercise() {
   if (exercise_ == nullptr) {
     exercise_ = new ExerciseDialog(session_, jobs_, this);
-    connect(exercise_, &ExerciseDialog::startWanted, this, &MainWindow::startExercise);
+    connect(exercise_, &ExerciseDialog::startWanted, this, [this](const Exercise& exercise) {
+      if (maySessionBeLeft()) startExercise(exercise);
+    });
     connect(exercise_, &ExerciseDialog::searchWanted, this, [this] {
       workflow_.goTo(StepId::Discrepancy);
       showSessionOrWelcome();

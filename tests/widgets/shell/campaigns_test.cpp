@@ -3,10 +3,15 @@
 #include <gmock/gmock.h>
 
 #include <QAction>
+#include <QApplication>
+#include <QMessageBox>
 #include <QPushButton>
 #include <QTableView>
 #include <QTest>
+#include <QTimer>
 #include <algorithm>
+#include <atomic>
+#include <thread>
 
 #include "core/base/text.h"
 #include "core/machine/nine_parameter_model.h"
@@ -375,6 +380,60 @@ TEST_F(CampaignsTest, AFileThatWasChangedWhileTheSessionWasClosedIsSaidAndItsRes
   EXPECT_FALSE(session().state("fit").current);
   EXPECT_EQ(session().state("fit").changed, QStringLiteral("files of the campaign"));
   EXPECT_EQ(window_->workflow().status(StepId::Model).state, StepState::Outdated);
+}
+
+TEST_F(CampaignsTest, LeavingTheSessionAsksWhileWorkRuns) {
+  openTwo();
+  std::atomic<bool> go_on{false};
+  Job job;
+  job.title = QStringLiteral("Long work");
+  job.work = [&go_on](JobContext& context) -> std::function<void()> {
+    while (!go_on && !context.cancelled()) std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    return [] {};
+  };
+  window_->jobs().run(std::move(job));
+  QString asked;
+  const auto answer = [&asked](bool leave) {
+    asked.clear();
+    QTimer::singleShot(50, qApp, [&asked, leave] {
+      auto* question = qobject_cast<QMessageBox*>(QApplication::activeModalWidget());
+      if (question == nullptr) return;
+      asked = question->text();
+      for (QAbstractButton* button : question->buttons())
+        if ((question->buttonRole(button) == QMessageBox::DestructiveRole) == leave) button->click();
+    });
+  };
+  const std::int64_t number = session().sessionNumber();
+  for (const char* way : {"First screen", "Pinhole targets of a microscope"}) {
+    QAction* leaving = action(way);
+    if (leaving == nullptr) continue;
+    answer(false);
+    leaving->trigger();
+    EXPECT_TRUE(asked.contains(QStringLiteral("Long work"))) << way;
+    EXPECT_EQ(session().sessionNumber(), number) << way;
+    EXPECT_TRUE(window_->jobs().working()) << way;
+  }
+  answer(false);
+  EXPECT_FALSE(window_->close());
+  EXPECT_TRUE(asked.contains(QStringLiteral("Long work")));
+  answer(true);
+  action("First screen")->trigger();
+  EXPECT_FALSE(session().isOpen());
+  wait();
+  // A batch is of no session: quitting ends it all the same.
+  Job batch;
+  batch.title = QStringLiteral("A batch");
+  batch.queue = JobQueue::Batch;
+  batch.work = [&go_on](JobContext& context) -> std::function<void()> {
+    while (!go_on && !context.cancelled()) std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    return [] {};
+  };
+  window_->jobs().run(std::move(batch));
+  answer(false);
+  EXPECT_FALSE(window_->close());
+  EXPECT_TRUE(asked.contains(QStringLiteral("A batch")));
+  go_on = true;
+  wait();
 }
 
 TEST_F(CampaignsTest, UndoBelongsToTheCampaignItWasDoneOn) {
