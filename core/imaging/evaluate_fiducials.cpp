@@ -215,15 +215,27 @@ InstrumentEvaluation evaluateFiducials(const Campaign& campaign, JobContext& job
   evaluation.rejected = images.rejected;
   evaluation.rejected.insert(evaluation.rejected.end(), displacement.rejected.begin(), displacement.rejected.end());
   evaluation.warnings = displacement.warnings;
+  for (const ImplausibleReading& reading : displacement.implausible) rejectReading(reading, evaluation);
   evaluation.details = detailsOf(list, images, displacement);
   evaluation.summary = summaryOf(displacement);
-  bool any_change = false;
-  for (const FiducialState& s : displacement.states) {
-    any_change = any_change || (!s.reference && (s.xy_um || s.z_um));
-  }
-  if (!any_change && list.states().size() > 1) {
+  // What was captured for and is not there in any state leaves its part of the answer open.
+  std::vector<std::string> open;
+  const auto asked = [&](CaptureRole role) {
+    return std::any_of(list.captures.begin(), list.captures.end(),
+                       [&](const FiducialCapture& c) { return c.role == role; });
+  };
+  const auto known = [&](const auto& has) {
+    return std::any_of(displacement.states.begin(), displacement.states.end(),
+                       [&](const FiducialState& s) { return !s.reference && has(s); });
+  };
+  if (asked(CaptureRole::Rotation) && !known([](const FiducialState& s) { return s.xy_um.has_value(); }))
+    open.insert(open.end(), {"X", "Y"});
+  if (asked(CaptureRole::Focus) && !known([](const FiducialState& s) { return s.z_um.has_value(); }))
+    open.emplace_back("Z");
+  if (!open.empty() && list.states().size() > 1) {
     evaluation.good_enough = false;
-    evaluation.warnings.emplace_back("No displacement could be measured: see the rejected captures.");
+    evaluation.warnings.push_back(fmt::format(
+        "No displacement in {} could be measured: see the rejected captures and the notes.", joinedList(open)));
   }
   if (evaluation.observations.rows.empty()) {
     evaluation.good_enough = false;

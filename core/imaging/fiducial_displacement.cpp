@@ -463,6 +463,30 @@ void makeFiducialObservations(FiducialDisplacement& out) {
   }
 }
 
+namespace {
+
+/// Takes displacements that no machine has out of the states and makes the observations anew.
+void leaveOutImplausible(FiducialDisplacement& out) {
+  out.implausible = implausibleReadings(out.observations);
+  if (out.implausible.empty()) return;
+  for (const ImplausibleReading& reading : out.implausible) {
+    for (const std::size_t row : reading.rows) {
+      const Observation& o = out.observations.rows[row];
+      for (FiducialState& s : out.states) {
+        if (s.fiducial != o.point || s.state != o.state) continue;
+        if (o.component == Component::EZ) {
+          s.z_um.reset();
+        } else {
+          s.xy_um.reset();
+        }
+      }
+    }
+  }
+  makeFiducialObservations(out);
+}
+
+}  // namespace
+
 FiducialDisplacement findFiducialDisplacement(const FiducialCaptureList& list, const FiducialImages& images,
                                               const MachineDescription& machine) {
   FiducialDisplacement out;
@@ -569,6 +593,7 @@ FiducialDisplacement findFiducialDisplacement(const FiducialCaptureList& list, c
   findDisplacements(list.states(), out);
   warnOfMissing(list, groups, images, out);
   makeFiducialObservations(out);
+  leaveOutImplausible(out);
   return out;
 }
 

@@ -29,6 +29,7 @@
 #include "core/imaging/fiducial_images.h"
 #include "core/machine/machine_description.h"
 #include "core/machine/observation.h"
+#include "core/machine/observation_plausibility.h"
 
 namespace spindrift {
 
@@ -67,6 +68,8 @@ struct FiducialDisplacement {
   FocusResult focus;
   ObservationSet observations;
   std::vector<RejectedCapture> rejected;  ///< sets that could not be used
+  /// Displacements that no machine has; not among states and observations any more (rows count before that).
+  std::vector<ImplausibleReading> implausible;
   std::vector<std::string> warnings;
 };
 

@@ -13,12 +13,10 @@
 #include "core/base/csv.h"
 #include "core/base/text.h"
 #include "core/base/unit_text.h"
+#include "core/machine/observation_plausibility.h"
 
 namespace spindrift {
 namespace {
-
-/// A tenth of a metre or of a radian: no thermal deviation is near it.
-constexpr double largest_deviation = 1e5;
 
 std::filesystem::path covarianceFile(const std::filesystem::path& file) {
   return file.parent_path() / (file.stem().string() + ".cov.csv");
@@ -103,12 +101,6 @@ ObservationSet ObservationSet::fromTable(const CsvTable& table) {
     }
     o.component = *parsed;
     o.value = table.number(row, value);
-    if (!(std::abs(o.value) <= largest_deviation)) {
-      throw InputError(
-          table.place(row, value),
-          fmt::format("{} {} is not allowed; allowed: deviations up to {:g} {} in size.", table.text(row, value),
-                      printedUnit(unitOf(o.component)), largest_deviation, printedUnit(unitOf(o.component))));
-    }
     o.sigma = table.number(row, sigma);
     if (!(o.sigma > 0.0)) {
       throw InputError(table.place(row, sigma),
@@ -150,6 +142,8 @@ ObservationSet ObservationSet::fromTable(const CsvTable& table) {
     }
     set.rows.push_back(std::move(o));
   }
+  for (const ImplausibleReading& reading : implausibleReadings(set))
+    throw InputError(table.place(reading.rows.front(), value), reading.sentence);
   return set;
 }
 

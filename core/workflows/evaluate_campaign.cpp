@@ -4,11 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <set>
 
 #include "core/base/count_text.h"
 #include "core/imaging/evaluate_fiducials.h"
 #include "core/imaging/fiducial_captures.h"
+#include "core/machine/observation_plausibility.h"
 #include "core/probing/evaluate_touches.h"
 #include "core/scanning/evaluate_scans.h"
 #include "core/scanning/scan_evaluation.h"
@@ -44,6 +44,18 @@ nlohmann::json CampaignEvaluation::json() const {
 namespace {
 /// Of an instrument in a summary.
 constexpr std::size_t most_rejected = 20;
+
+/// What an instrument gives that no machine does is a rejected capture; the rest stays.
+void leaveOutImplausible(InstrumentEvaluation& instrument) {
+  std::vector<std::size_t> out;
+  for (const ImplausibleReading& reading : implausibleReadings(instrument.observations)) {
+    out.insert(out.end(), reading.rows.begin(), reading.rows.end());
+    rejectReading(reading, instrument);
+  }
+  if (out.empty()) return;
+  std::sort(out.begin(), out.end());
+  instrument.observations = withoutRows(instrument.observations, out);
+}
 }  // namespace
 
 std::string CampaignEvaluation::summary() const {
@@ -77,7 +89,9 @@ CampaignEvaluation evaluateCampaign(const Campaign& campaign, const EvaluateOpti
   if (fiducials) evaluation.instruments.push_back(evaluateFiducials(campaign, job));
   if (touches) evaluation.instruments.push_back(evaluateTouches(campaign, job));
   if (scans) evaluation.instruments.push_back(evaluateScans(campaign, options.scan_model, job));
-  for (const InstrumentEvaluation& instrument : evaluation.instruments) {
+  for (InstrumentEvaluation& instrument : evaluation.instruments) {
+    leaveOutImplausible(instrument);
+    refusePositionsInMetres(instrument.observations, campaign.machine);
     evaluation.observations.append(instrument.observations);
     evaluation.good_enough = evaluation.good_enough && instrument.good_enough;
   }
@@ -86,29 +100,13 @@ CampaignEvaluation evaluateCampaign(const Campaign& campaign, const EvaluateOpti
 
 ObservationSet allObservationsOf(const Campaign& campaign, const std::filesystem::path& file,
                                  const EvaluateOptions& options, JobContext& job) {
-  if (!file.empty()) return ObservationSet::read(file);
+  if (!file.empty()) {
+    ObservationSet set = ObservationSet::read(file);
+    refusePositionsInMetres(set, campaign.machine);
+    return set;
+  }
   if (campaign.observations) return *campaign.observations;
   return evaluateCampaign(campaign, options, job).observations;
-}
-
-std::string outsideTravel(const ObservationSet& observations, const MachineDescription& machine) {
-  std::set<std::string> outside;
-  std::string example;
-  for (const Observation& o : observations.rows) {
-    for (int i = 0; i < 3; ++i) {
-      const LinearAxis* axis = machine.findAxis(std::string(1, "XYZ"[i]));
-      if (axis == nullptr) continue;
-      const double slack = 0.1 * (axis->travel_mm[1] - axis->travel_mm[0]);
-      if (o.position_mm[i] >= axis->travel_mm[0] - slack && o.position_mm[i] <= axis->travel_mm[1] + slack) continue;
-      if (outside.insert(o.point).second && example.empty())
-        example = fmt::format("{} of point {} is {:g} mm, the travel {:g} to {:g} mm", "xyz"[i], o.point,
-                              o.position_mm[i], axis->travel_mm[0], axis->travel_mm[1]);
-    }
-  }
-  if (outside.empty()) return {};
-  return fmt::format(
-      "{} of {} points lie far outside the travel of this machine ({}): are these its observations, in mm?",
-      outside.size(), observations.points().size(), example);
 }
 
 ObservationSet observationsOf(const Campaign& campaign, const std::filesystem::path& file,

@@ -30,14 +30,11 @@ struct CampaignEvaluation {
   [[nodiscard]] std::string summary() const;
 };
 
-/// Throws InputError if the campaign has no captures or a list cannot be read; a bad capture is listed, the rest is
-/// evaluated. The campaign folder is not written to.
+/// Throws InputError if the campaign has no captures, a list cannot be read or the positions are metres; a bad capture
+/// and a reading that no machine gives (core/machine/observation_plausibility.h) are listed, the rest is evaluated. The
+/// campaign folder is not written to.
 [[nodiscard]] CampaignEvaluation evaluateCampaign(const Campaign& campaign, const EvaluateOptions& options,
                                                   JobContext& job);
-
-/// One sentence if points lie outside the travel of the machine by more than a tenth of it: a file of another machine,
-/// another unit, or columns that were swapped. Empty otherwise.
-[[nodiscard]] std::string outsideTravel(const ObservationSet& observations, const MachineDescription& machine);
 
 /// Observations for a command: from `file` if given, else the campaign's own, else its captures evaluated in memory.
 /// What was taken while the control was compensating is marked `exclude`, so that no fit uses it; `notes` gets the

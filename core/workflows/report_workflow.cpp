@@ -142,11 +142,8 @@ Report reportOfCampaign(const Campaign& campaign, const ReportOptions& options, 
     input.observations = std::move(evaluation.observations);
     tellStoredFit(input.instruments, options.stored);
   }
-  if (!options.observations_file.empty()) {
-    input.observations = ObservationSet::read(options.observations_file);
-  } else if (campaign.observations) {
-    input.observations = *campaign.observations;
-  }
+  if (!options.observations_file.empty() || campaign.observations)
+    input.observations = allObservationsOf(campaign, options.observations_file, options.evaluate, evaluating);
   const std::string left_out = leaveOutCompensated(input.observations, campaign.log);
   if (!left_out.empty()) input.notes.push_back(left_out);
   if (campaign.log && !campaign.log->file().empty()) {

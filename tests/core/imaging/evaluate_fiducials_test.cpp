@@ -239,6 +239,37 @@ TEST_F(RenderedCampaign, BadCapturesAreNamedAndTheRestIsEvaluated) {
   EXPECT_EQ(rows["F3"], 3);
 }
 
+TEST_F(RenderedCampaign, SwappedLabelsAreToldAndTheRestIsEvaluated) {
+  const auto campaign = copy();
+  const auto list = campaign / "captures/fiducials.csv";
+  std::istringstream lines(readFile(list));
+  std::string text;
+  for (std::string line; std::getline(lines, line);) {
+    for (const auto& [from, to] : {std::pair(",M1,F1,", ",M1,F2,"), {",M1,F2,", ",M1,F1,"}}) {
+      if (const auto at = line.find(from); at != std::string::npos) {
+        line.replace(at, std::string_view(from).size(), to);
+        break;
+      }
+    }
+    text += line + "\n";
+  }
+  writeFileAtomically(list, text);
+  const InstrumentEvaluation e = evaluate(campaign);
+  EXPECT_FALSE(e.good_enough);
+  EXPECT_THAT(reasonOf(e, "F1 and F2 in state M1"),
+              HasSubstr("The labels of F1 and F2 are swapped in state M1 or in M0: each lies 260.0 mm away"));
+  EXPECT_THAT(e.warnings, ::testing::Contains(HasSubstr("are swapped in state M1")));
+  EXPECT_EQ(e.summary.find("260"), std::string::npos) << e.summary;
+  std::map<std::string, int> rows;
+  for (const Observation& o : e.observations.rows) {
+    EXPECT_LT(std::abs(o.value), 1000.0);
+    if (o.state == "M1") ++rows[o.point];
+  }
+  EXPECT_EQ(rows["F1"], 0);
+  EXPECT_EQ(rows["F2"], 0);
+  EXPECT_EQ(rows["F3"], 3);
+}
+
 TEST_F(RenderedCampaign, AFiducialMissingInAStateIsSaid) {
   const auto campaign = copy();
   std::string kept;
