@@ -180,13 +180,17 @@ class ArtefactEvaluator {
   void run(const JobContext& job, bool parallel) {
     parallel_ = parallel;
     // The first scan is the reference. If most others do not fit it, it may be the first that is wrong: try the next.
+    // Of two that fit as many the one that shows more is the artefact: a plane is not.
     std::vector<ScanResult> best;
     std::vector<RejectedCapture> best_rejected;
+    const auto open = [](const std::vector<ScanResult>& of) {
+      return of.empty() ? std::numeric_limits<std::size_t>::max() : of.front().not_observed.size();
+    };
     for (std::size_t first = 0; first < std::min<std::size_t>(captures_.size(), 3); ++first) {
       scans.clear();
       rejected.clear();
       attempt(first, job);
-      if (first == 0 || scans.size() > best.size()) {
+      if (first == 0 || scans.size() > best.size() || (scans.size() == best.size() && open(scans) < open(best))) {
         best = scans;
         best_rejected = rejected;
       }
@@ -459,15 +463,16 @@ ProfilerCalibration calibrationOf(const Campaign& campaign, const ProfilerDescri
   if (profiler.calibration_cloud.empty() || !profiler.calibration_circle_mm) {
     reason = "machine.json names no calibration_cloud with its calibration_circle";
   } else {
+    // A path out of the folder is refused, where a cloud that cannot be used is only told.
+    const std::filesystem::path cloud =
+        InsideFolder(campaign.folder)
+            .path(profiler.calibration_cloud, {campaign.machine.file, "$.profiler.calibration_cloud"});
     try {
       std::array<double, 4> circle = *profiler.calibration_circle_mm;
       const Eigen::Vector3d centre =
           frame.machine_from_scan.transpose() * Eigen::Vector3d(circle[0], circle[1], circle[2]);
       for (std::size_t i = 0; i < 3; ++i) circle[i] = centre[static_cast<Eigen::Index>(i)];
-      const ProfilerCalibration c = calibrateProfiler(
-          readCloud(InsideFolder(campaign.folder)
-                        .path(profiler.calibration_cloud, {campaign.machine.file, "$.profiler.calibration_cloud"})),
-          circle, options);
+      const ProfilerCalibration c = calibrateProfiler(readCloud(cloud), circle, options);
       if (c.usable()) {
         if (!c.message.empty()) warnings.push_back(calibrationWarning(c));
         return c;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 #include <string>
@@ -13,6 +15,38 @@
 #include "core/scanning/scan_evaluation.h"
 
 namespace spindrift {
+namespace {
+
+/// Lengths of the profiler and carriage positions that can only be metres.
+void refuseMetres(const MachineDescription& machine, const SourcePlace& first,
+                  const std::vector<ScanCapture>& captures) {
+  constexpr double mm_per_metre = 1e3;
+  const double lever_mm = machine.profiler->lever_mm.norm();
+  // No tool sits within a millimetre of the slide's origin; zero means that it is not known.
+  if (lever_mm > 0.0 && lever_mm < 1.0) {
+    throw InputError({machine.file, "$.profiler.lever_mm"},
+                     fmt::format("a lever of {:.3g} mm looks like metres; allowed: millimetres from the slide's origin "
+                                 "to the tool frame, or zeros.",
+                                 lever_mm));
+  }
+  const LinearAxis* axis = machine.findAxis(machine.profiler->axis);
+  if (axis == nullptr) return;
+  const double travel_mm = std::max(std::abs(axis->travel_mm[0]), std::abs(axis->travel_mm[1]));
+  double reach_mm = 0.0;
+  bool apart = false;
+  for (const ScanCapture& c : captures) {
+    reach_mm = std::max(reach_mm, std::abs(c.y_mm));
+    apart = apart || c.y_mm != captures.front().y_mm;
+  }
+  constexpr double beyond_travel = 1.1;
+  if (!apart || reach_mm * mm_per_metre > beyond_travel * travel_mm) return;
+  throw InputError(
+      first, fmt::format("all carriage positions lie within {:.3g} mm although {} travels {:g} mm: they look like "
+                         "metres; allowed: millimetres.",
+                         reach_mm, machine.profiler->axis, travel_mm));
+}
+
+}  // namespace
 
 std::vector<ScanCapture> readScanList(const Campaign& campaign) {
   const auto file = campaign.captureList("scans.csv");
@@ -40,6 +74,11 @@ std::vector<ScanCapture> readScanList(const Campaign& campaign) {
     out.push_back(std::move(c));
   }
   if (out.empty()) throw InputError({*file, ""}, "lists no scans.");
+  if (const auto& profiler = campaign.machine.profiler) {
+    if (!profiler->calibration_cloud.empty())
+      (void)folder.path(profiler->calibration_cloud, {campaign.machine.file, "$.profiler.calibration_cloud"});
+    refuseMetres(campaign.machine, table.place(0, y), out);
+  }
   return out;
 }
 

@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "core/base/atomic_file.h"
+#include "core/base/random.h"
 #include "core/scanning/cloud_file.h"
 #include "core/scanning/evaluate_scans.h"
 #include "core/scanning/painted_mask.h"
@@ -147,6 +148,52 @@ TEST(EvaluateScans, ACopyIsNoSecondMeasurement) {
             std::string::npos)
       << evaluation.rejected.front().reason;
   for (const Observation& o : evaluation.observations.rows) EXPECT_NE(o.state, "C1");
+}
+
+TEST(EvaluateScans, MetresAndACalibrationOutsideTheCampaignAreRefused) {
+  const testing::TempFolder folder;
+  writeScans(folder / "c");
+  Campaign campaign = Campaign::read(folder / "c");
+  ASSERT_TRUE(campaign.machine.profiler);
+  ProfilerDescription& profiler = *campaign.machine.profiler;
+  const auto complaint = [&] {
+    try {
+      (void)readScanList(campaign);
+    } catch (const InputError& e) {
+      return std::string(e.what());
+    }
+    return std::string();
+  };
+  EXPECT_EQ(complaint(), "");
+  profiler.lever_mm = {0.0, -0.1, 0.34};
+  EXPECT_NE(complaint().find("$.profiler.lever_mm: a lever of 0.354 mm looks like metres"), std::string::npos)
+      << complaint();
+  profiler.lever_mm.setZero();
+  profiler.calibration_cloud = "../../x.pcd";
+  EXPECT_NE(complaint().find("\"../../x.pcd\" leaves its folder"), std::string::npos) << complaint();
+  profiler.calibration_cloud.clear();
+  const LinearAxis* axis = campaign.machine.findAxis(profiler.axis);
+  ASSERT_NE(axis, nullptr);
+  folder.write("c/captures/scans.csv",
+               "time_s,cycle,artefact,y_mm,cloud\n0,C0,A1,0.04,captures/clouds/A1_C0.pcd\n"
+               "60,C0,A2,0.09,captures/clouds/A1_C1.pcd\n");
+  EXPECT_NE(complaint().find("all carriage positions lie within 0.09 mm"), std::string::npos) << complaint();
+}
+
+/// The first scan is a plane: it fits nothing and is the one that is wrong, not those that show the artefact.
+TEST(EvaluateScans, APlaneIsNotTheReference) {
+  const testing::TempFolder folder;
+  writeScans(folder / "c");
+  const auto first = folder / "c/captures/clouds/A1_C0.pcd";
+  PointCloud cloud = readCloud(first);
+  Random random(5);
+  for (Eigen::Vector3d& p : cloud.points_mm) p.z() = 0.002 * random.normal();
+  writeCloud(cloud, first);
+  std::filesystem::remove(folder / "c/captures/clouds/A1_C1.pcd");
+  JobContext job;
+  const InstrumentEvaluation evaluation = evaluateScans(Campaign::read(folder / "c"), "", job);
+  ASSERT_EQ(evaluation.rejected.size(), 2U);
+  for (const RejectedCapture& r : evaluation.rejected) EXPECT_NE(r.capture, "captures/clouds/A1_C2.pcd") << r.reason;
 }
 
 TEST(ScanCheck, ACloudThatTheMemoryCannotHoldCostsItselfAndNotTheRun) {
