@@ -103,6 +103,37 @@ std::string unknownGrowth(const Artefact& artefact, const ArtefactCertificate& c
       artefact.id, artefact.id, per_K);
 }
 
+/// A stylus touches a ball on all sides but the one it comes from, so that its touches on the whole approach away from
+/// the spindle: along its offset. One that does not has another offset.
+void judgeOffsets(const TouchList& list, const MachineDescription& machine, BallCycleResult& result) {
+  constexpr double telling = 0.1;  // of the mean approach: it is zero for a ring of touches without a pole
+  constexpr double least_cosine = 0.2;
+  for (const Stylus& stylus : machine.styli) {
+    Eigen::Vector3d approach = Eigen::Vector3d::Zero();
+    double count = 0.0;
+    for (const Touch& t : list.touches) {
+      if (t.artefact != result.artefact || t.stylus != stylus.id) continue;
+      approach += t.approach;
+      count += 1.0;
+    }
+    const double length = stylus.offset_mm.norm();
+    if (count == 0.0 || !(length > 0.0)) continue;
+    if (length < stylus.radius_mm) {
+      result.contradict(fmt::format(
+          "The offset of stylus {} is {:.3g} mm long, less than the radius of its ball ({:g} mm): is it in metres?",
+          stylus.id, length, stylus.radius_mm));
+      continue;
+    }
+    approach /= count;
+    if (approach.norm() < telling || approach.normalized().dot(stylus.offset_mm) > least_cosine * length) continue;
+    const Eigen::Vector3d way = approach.normalized();
+    result.contradict(fmt::format(
+        "Stylus {} touched on the whole along ({:.1f}, {:.1f}, {:.1f}), but its offset ({:g}, {:g}, {:g}) mm does not "
+        "point there: is a sign wrong, or are two styli swapped? Head tilt and drift of the spindle depend on it.",
+        stylus.id, way.x(), way.y(), way.z(), stylus.offset_mm.x(), stylus.offset_mm.y(), stylus.offset_mm.z()));
+  }
+}
+
 }  // namespace
 
 const std::vector<std::string>& ballParameterNames() {
@@ -183,6 +214,7 @@ BallCycleResult evaluateBallCycles(const TouchList& list, const MachineDescripti
     return 0.5 * ballOf(artefact, feature).diameter_mm + machine.findStylus(stylus)->radius_mm;
   };
   evaluateCycles(corrected, machine, artefact, assembly, result);
+  judgeOffsets(list, machine, result);
 
   ArtefactGrowth growth;
   if (grows) {
@@ -258,7 +290,7 @@ BallCycleResult evaluateBallCycles(const TouchList& list, const MachineDescripti
     }
   }
   if (worst_mm > 2.0) {
-    result.warnings.push_back(
+    result.contradict(
         fmt::format("Distance {} differs from the certificate by {:.2f} mm: are balls swapped or is this another "
                     "artefact?",
                     worst_pair, worst_mm));

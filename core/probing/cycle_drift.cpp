@@ -88,6 +88,28 @@ class DriftFinder {
     return found;
   }
 
+  /// The clearest step of a cycle; see findStepInside.
+  [[nodiscard]] std::optional<StepInside> step(const CycleFitResult& fit,
+                                               const std::vector<Eigen::MatrixX3d>& frames) const {
+    const Information all = informationOf(fit);
+    std::optional<StepInside> best;
+    double most = 0.0;
+    for (int k = 0; k < problem_.cycles; ++k) {
+      const Rows& rows = rows_[static_cast<std::size_t>(k)];
+      if (std::ssize(rows) < 2 * least_touches) continue;
+      const Against against = againstOthers(problem_, fit, all, k);
+      for (const Eigen::MatrixX3d& frame : frames) {
+        double gain = 0.0;
+        const auto found = stepOf(fit, against, k, frame, gain);
+        // Of two cycles either may be the moved one: the later is named.
+        if (!found || gain < most) continue;
+        most = gain;
+        best = found;
+      }
+    }
+    return best;
+  }
+
   /// The problem with the drifts as further parameters of size 1 +- 1.
   [[nodiscard]] CycleProblem extended(const CycleFitResult& fit, const std::vector<Eigen::MatrixXd>& drifts,
                                       const std::vector<double>& factor) const {
@@ -366,6 +388,128 @@ class DriftFinder {
     }
   }
 
+  static constexpr Eigen::Index least_touches = 8;
+
+  /// Rest of z after A and further columns, all whitened.
+  [[nodiscard]] Eigen::VectorXd restOf(const Eigen::MatrixXd& A, const Eigen::MatrixXd& more,
+                                       const Eigen::VectorXd& z) const {
+    Eigen::MatrixXd both(A.rows(), A.cols() + more.cols());
+    both << A, more;
+    const Eigen::MatrixXd range = rangeOf(std::move(both)).basis;
+    return z - range * (range.transpose() * z);
+  }
+
+  [[nodiscard]] std::optional<StepInside> stepOf(const CycleFitResult& fit, const Against& against, int cycle,
+                                                 const Eigen::MatrixX3d& frame, double& gain) const {
+    const Rows& order = rows_[static_cast<std::size_t>(cycle)];
+    std::vector<Eigen::Index> at(order.size());  // place in `against`, in order of time
+    for (std::size_t i = 0; i < at.size(); ++i) at[i] = static_cast<Eigen::Index>(i);
+    const auto timeOf = [&](Eigen::Index i) {
+      return time_s_[static_cast<std::size_t>(order[static_cast<std::size_t>(i)])];
+    };
+    std::sort(at.begin(), at.end(), [&](Eigen::Index a, Eigen::Index b) { return timeOf(a) < timeOf(b); });
+    const Eigen::Index m = against.touches;
+    const Eigen::Index n = against.z.size();
+    const CycleTime& time = times_[static_cast<std::size_t>(cycle)];
+    if (!(time.duration_s > 0.0)) return {};
+    Eigen::MatrixXd normals = Eigen::MatrixXd::Zero(n, 3);
+    Eigen::MatrixXd drift = Eigen::MatrixXd::Zero(n, 6 + problem_.jacobian.cols());
+    for (Eigen::Index i = 0; i < m; ++i) {
+      const Eigen::Index r = order[static_cast<std::size_t>(i)];
+      const double sigma = sigmaOf(fit, r);
+      const double tau = (timeOf(i) - time.mean_s) / time.duration_s;
+      normals.row(i) = frame.row(r) / sigma;
+      drift.row(i) << tau * normals.row(i), tau * tau * normals.row(i), tau * problem_.jacobian.row(r) / sigma;
+    }
+    // Whitened once; touches that fit nothing are no evidence of a step.
+    const Eigen::MatrixXd& A = against.A;
+    const Eigen::VectorXd& z = against.z;
+    Eigen::MatrixXd whitener = whitenerOf(against.V);
+    const auto after = [&](Eigen::Index first) {
+      Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(n, 3);
+      for (Eigen::Index i = first; i < m; ++i) {
+        const Eigen::Index touch = at[static_cast<std::size_t>(i)];
+        columns.row(touch) = normals.row(touch);
+      }
+      return columns;
+    };
+    const auto whitened = [&](Eigen::Index i) -> Eigen::MatrixXd { return whitener * after(i); };
+    const Eigen::Index best = bestPlace(whitener * A, whitener * z, m, whitened);
+    if (best < 0) return {};
+    // Again without the two touches that the step explains worst.
+    const Eigen::VectorXd rest = restOf(whitener * A, whitener * after(best), whitener * z);
+    std::vector<Eigen::Index> kept;
+    {
+      std::vector<Eigen::Index> worst;
+      for (Eigen::Index i = 0; i < m; ++i) worst.push_back(i);
+      const Eigen::VectorXd size = (whitener.transpose() * rest).cwiseAbs();
+      std::partial_sort(worst.begin(), worst.begin() + 2, worst.end(),
+                        [&](Eigen::Index a, Eigen::Index b) { return size(a) > size(b); });
+      for (Eigen::Index i = 0; i < n; ++i)
+        if (i != worst[0] && i != worst[1]) kept.push_back(i);
+    }
+    whitener = whitenerOf(against.V(kept, kept));
+    const Eigen::MatrixXd design = whitener * A(kept, Eigen::all);
+    const Eigen::VectorXd values = whitener * z(kept);
+    const Eigen::MatrixXd stepped = whitener * after(best)(kept, Eigen::all);
+    const double none = restOf(design, Eigen::MatrixXd(design.rows(), 0), values).squaredNorm();
+    const double smooth = restOf(design, whitener * drift(kept, Eigen::all), values).squaredNorm();
+    const double step = restOf(design, stepped, values).squaredNorm();
+    const double freedom = static_cast<double>(kept.size()) - static_cast<double>(design.cols()) - 3.0;
+    if (!(freedom > 8.0) || !(step > 0.0)) return {};
+    const double count = std::log(static_cast<double>(kept.size()));
+    const double against_none = freedom * std::log(none / step) - 4.0 * count;  // three components and a place in time
+    const double against_drift = freedom * std::log(smooth / step) + (static_cast<double>(drift.cols()) - 4.0) * count;
+    constexpr double clear = 40.0;
+    constexpr double clearer = 20.0;
+    gain = against_none;
+    if (against_none < clear || against_drift < clearer) return {};
+    // The step itself, with the noise of the cycle.
+    const Eigen::MatrixXd basis = rangeOf(design).basis;
+    const Eigen::MatrixXd free = stepped - basis * (basis.transpose() * stepped);
+    const Eigen::Matrix3d normal = free.transpose() * free;
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> modes(normal);
+    Eigen::Matrix3d inverse = Eigen::Matrix3d::Zero();
+    for (int q = 0; q < 3; ++q) {
+      if (!(modes.eigenvalues()(q) > 1e-3 * modes.eigenvalues()(2))) continue;
+      inverse += modes.eigenvectors().col(q) * modes.eigenvectors().col(q).transpose() / modes.eigenvalues()(q);
+    }
+    StepInside found;
+    found.cycle = cycle;
+    found.after_s = timeOf(at[static_cast<std::size_t>(best) - 1]);
+    found.before_s = timeOf(at[static_cast<std::size_t>(best)]);
+    found.step_mm = inverse * (free.transpose() * values);
+    found.sigma_mm = std::sqrt(inverse.diagonal().maxCoeff() * step / freedom);
+    constexpr double telling_mm = 3e-3;
+    constexpr double many_sigma = 8.0;
+    if (found.step_mm.norm() < std::max(telling_mm, many_sigma * found.sigma_mm)) return {};
+    return found;
+  }
+
+  [[nodiscard]] static Eigen::MatrixXd whitenerOf(const Eigen::MatrixXd& V) {
+    const Eigen::LLT<Eigen::MatrixXd> root(V);
+    return root.matrixL().solve(Eigen::MatrixXd::Identity(V.rows(), V.cols()));
+  }
+
+  /// Index in time before which the step explains most; -1: nowhere much.
+  template <typename Columns>
+  [[nodiscard]] Eigen::Index bestPlace(const Eigen::MatrixXd& A, const Eigen::VectorXd& z, Eigen::Index touches,
+                                       const Columns& columns) const {
+    const Eigen::MatrixXd basis = rangeOf(A).basis;
+    const Eigen::VectorXd rest = z - basis * (basis.transpose() * z);
+    Eigen::Index best = -1;
+    double most = 0.2 * rest.squaredNorm();  // less is no step by far
+    for (Eigen::Index i = least_touches; i + least_touches <= touches; ++i) {
+      const Eigen::MatrixXd step = columns(i);
+      const Eigen::MatrixXd range = rangeOf(step - basis * (basis.transpose() * step), false).basis;
+      const double explained = (range.transpose() * rest).squaredNorm();
+      if (explained <= most) continue;
+      most = explained;
+      best = i;
+    }
+    return best;
+  }
+
   const CycleProblem& problem_;
   const std::vector<double>& time_s_;
   const CycleFitOptions& options_;
@@ -424,6 +568,16 @@ CycleFitResult fitDriftingCycles(const CycleProblem& problem, const std::vector<
     if (k != problem.reference_cycle) finder.describe(fit, k);
   }
   return fit;
+}
+
+std::optional<StepInside> findStepInside(const CycleProblem& problem, const std::vector<double>& time_s,
+                                         const std::vector<Eigen::MatrixX3d>& frames, const CycleFitOptions& options) {
+  SPINDRIFT_ASSERT(time_s.size() == problem.rows.size(), "every touch needs a time");
+  if (problem.cycles < 2 || problem.rows.empty()) return {};
+  // All touches of a moved cycle belong to it: none is taken for bad beforehand.
+  CycleFitOptions all = options;
+  all.outlier_threshold = 0.0;
+  return DriftFinder(problem, time_s, all).step(fitCycles(problem, all), frames);
 }
 
 }  // namespace spindrift

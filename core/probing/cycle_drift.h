@@ -16,6 +16,8 @@
 // Source: Patterson and Thompson (1971), restricted likelihood.
 #pragma once
 
+#include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 #include "core/probing/cycle_fit.h"
@@ -26,5 +28,23 @@ namespace spindrift {
 /// parameters of `problem`.
 [[nodiscard]] CycleFitResult fitDriftingCycles(const CycleProblem& problem, const std::vector<double>& time_s,
                                                const CycleFitOptions& options = {});
+
+/// Artefact or probe moved at once, between two touches of one cycle, and stayed there.
+struct StepInside {
+  int cycle = 0;
+  double after_s = 0.0;  ///< time of the last touch before it
+  double before_s = 0.0;
+  Eigen::Vector3d step_mm = Eigen::Vector3d::Zero();  ///< of what is touched, relative to the probe
+  double sigma_mm = 0.0;                              ///< largest standard uncertainty of a component
+};
+
+/// The clearest such step, or none. Of a cycle against all others:
+///   z = A theta + (n_i . s) [t_i > t_step] + e,     n_i normal of the touch in one of `frames` (MCF, turned table)
+/// compared with no step, and with a drift of all parameters and of the place in time (as theta t, s1 t + s2 t^2), by
+/// n log(rss) + k log(n): heat takes its time. The noise is that of the cycle itself. The worst two touches are left
+/// out of all three, so that no bad touch is a step; eight touches at least lie on either side.
+[[nodiscard]] std::optional<StepInside> findStepInside(const CycleProblem& problem, const std::vector<double>& time_s,
+                                                       const std::vector<Eigen::MatrixX3d>& frames,
+                                                       const CycleFitOptions& options = {});
 
 }  // namespace spindrift

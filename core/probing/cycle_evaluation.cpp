@@ -4,16 +4,21 @@
 #include <fmt/format.h>
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
+#include <set>
 #include <tuple>
 #include <unordered_map>
+#include <utility>
 
 #include "core/base/text.h"
 #include "core/base/units.h"
 #include "core/math/statistics.h"
+#include "core/probing/artefact_place.h"
 #include "core/probing/cycle_drift.h"
 #include "core/probing/surface_rejection.h"
 
@@ -22,6 +27,11 @@ namespace spindrift {
 double CycleEvaluation::covariance(int cycle, int a, int b) const {
   return fit.cycles[static_cast<std::size_t>(cycle)].covariance(a, b) * unit[static_cast<std::size_t>(a)] *
          unit[static_cast<std::size_t>(b)];
+}
+
+void CycleEvaluation::contradict(std::string sentence) {
+  warnings.push_back(std::move(sentence));
+  good_enough = false;
 }
 
 int CycleEvaluation::indexOf(const std::string& name) const {
@@ -61,12 +71,11 @@ class Assembler {
     findRadii();
     std::vector<bool> excluded(list_.touches.size(), false);
     for (const RejectedTouch& r : result_.rejected) excluded[r.touch] = true;
+    leaveOutMovedCycles(excluded);
     for (int pass = 0; pass < 2; ++pass) {
       centre(excluded);
       build(excluded);
-      std::vector<double> time_s;
-      for (const std::size_t i : result_.row_touch) time_s.push_back(list_.touches[i].time_s);
-      result_.fit = fitDriftingCycles(result_.problem, time_s, assembly_.fit);
+      result_.fit = fitDriftingCycles(result_.problem, rowTimes(), assembly_.fit);
       bool changed = false;
       // A bad touch spoils the centre about which the others of its feature were linearised: once more without it.
       std::vector<bool> next = excluded;
@@ -88,6 +97,61 @@ class Assembler {
   }
 
  private:
+  [[nodiscard]] std::vector<double> rowTimes() const {
+    std::vector<double> time_s;
+    for (const std::size_t i : result_.row_touch) time_s.push_back(list_.touches[i].time_s);
+    return time_s;
+  }
+
+  /// A cycle in the middle of which artefact or probe was knocked measures two places: it is left out. The first cycle
+  /// is what all others are compared with; of it this is only said.
+  void leaveOutMovedCycles(std::vector<bool>& excluded) {
+    constexpr int most = 3;  // more is no knock
+    for (int k = 0; k < most; ++k) {
+      centre(excluded);
+      build(excluded);
+      // A probe stays moved in the machine, an artefact on its table turns with it.
+      Eigen::MatrixX3d in_machine(std::ssize(result_.row_normal), 3);
+      Eigen::MatrixX3d on_table(in_machine.rows(), 3);
+      bool turned = false;
+      for (Eigen::Index r = 0; r < in_machine.rows(); ++r) {
+        const Eigen::Vector3d& normal = result_.row_normal[static_cast<std::size_t>(r)];
+        const double c_deg = list_.touches[result_.row_touch[static_cast<std::size_t>(r)]].c_deg;
+        in_machine.row(r) = normal;
+        on_table.row(r) = Eigen::AngleAxisd(-c_deg * rad_per_deg, assembly_.axis) * normal;
+        turned = turned || c_deg != 0.0;
+      }
+      std::vector<Eigen::MatrixX3d> frames{in_machine};
+      if (turned) frames.push_back(on_table);
+      const auto step = findStepInside(result_.problem, rowTimes(), frames, assembly_.fit);
+      if (!step) return;
+      const std::string& cycle = result_.cycles[static_cast<std::size_t>(step->cycle)];
+      const bool reference = step->cycle == result_.problem.reference_cycle;
+      const Eigen::Vector3d um = step->step_mm * um_per_mm;
+      const std::string size = withUncertainty(um.norm(), step->sigma_mm * um_per_mm, "um");
+      result_.contradict(
+          reference ? fmt::format(
+                          "In the middle of {}, between {:.0f} s and {:.0f} s, {} or the probe moved at once by {} (X "
+                          "{:.1f}, Y {:.1f}, Z {:.1f} µm), which heat does not do. All cycles are compared with this "
+                          "one: measure it again.",
+                          cycle, step->after_s, step->before_s, artefact_.id, size, um.x(), um.y(), um.z())
+                    : fmt::format(
+                          "In the middle of {}, between {:.0f} s and {:.0f} s, {} or the probe moved at once by {} (X "
+                          "{:.1f}, Y {:.1f}, Z {:.1f} µm), which heat does not do. The cycle is left out, and all "
+                          "later ones hold that step: measure a new first cycle.",
+                          cycle, step->after_s, step->before_s, artefact_.id, size, um.x(), um.y(), um.z()));
+      if (reference) return;
+      for (const Group& g : groups_) {
+        if (g.cycle != step->cycle) continue;
+        for (const std::size_t i : g.touches) {
+          if (excluded[i]) continue;
+          excluded[i] = true;
+          result_.rejected.push_back({i, fmt::format("artefact or probe moved in the middle of {}", cycle)});
+        }
+      }
+    }
+  }
+
   void group() {
     std::unordered_map<std::string, int> cycle_index;
     std::map<std::pair<int, int>, std::size_t> group_of;
@@ -131,16 +195,59 @@ class Assembler {
     return t.position_mm + side * radiusOf(setting) * t.approach;
   }
 
+  /// Where a feature is expected: its nominal place, and the artefact as it stands beside its own.
+  [[nodiscard]] std::optional<Eigen::Vector3d> expected(const std::string& feature, double c_deg) const {
+    auto at = assembly_.nominal ? assembly_.nominal(feature, c_deg) : std::nullopt;
+    if (at) *at += place_.offset_mm(*at, c_deg);
+    return at;
+  }
+
+  /// How the artefact was clamped, of all cycles together: no wrong feature.
+  void findPlace() {
+    if (!assembly_.nominal) return;
+    std::map<int, std::array<std::vector<double>, 3>> implied;  // by setting
+    for (const Group& g : groups_) {
+      for (const std::size_t i : g.touches) {
+        if (assembly_.kind == FeatureKind::Hole && isSurfaceTouch(list_.touches[i], assembly_.axis)) continue;
+        const Eigen::Vector3d at = impliedCentre(list_.touches[i], g.setting);
+        for (std::size_t k = 0; k < 3; ++k) implied[g.setting][k].push_back(at(static_cast<Eigen::Index>(k)));
+      }
+    }
+    std::vector<FoundFeature> found;
+    std::set<double> angles;
+    for (const auto& [setting, at] : implied) {
+      const auto& [feature, stylus, c_deg] = settings_[static_cast<std::size_t>(setting)];
+      const auto nominal = assembly_.nominal(feature, c_deg);
+      if (!nominal) continue;
+      found.push_back({c_deg, *nominal, {median(at[0]), median(at[1]), median(at[2])}});
+      angles.insert(c_deg);
+    }
+    place_ = registerArtefact(found, assembly_.axis, assembly_.centre_mm);
+    constexpr double telling_mm = 1.0;
+    if (!(place_.largest_mm > telling_mm)) return;
+    result_.warnings.push_back(
+        angles.size() > 1
+            ? fmt::format(
+                  "{} stands up to {:.1f} mm beside where the machine file has it (clamped {:.1f} mm beside its "
+                  "place and turned by {:.2f}°, centre of the rotary axis {:.1f} mm off): its features were "
+                  "found there, but its place in the machine file enters the evaluation.",
+                  artefact_.id, place_.largest_mm, place_.on_table_mm.norm(), place_.turn_rad * deg_per_rad,
+                  place_.centre_offset_mm.norm())
+            : fmt::format("{} stands up to {:.1f} mm beside where the machine file has it (turned by {:.2f}°): its "
+                          "features were found there, but its place in the machine file enters the evaluation.",
+                          artefact_.id, place_.largest_mm, place_.turn_rad * deg_per_rad));
+  }
+
   /// How far beside the holes most surface touches are made, mm; with one or two cycles there is no habit to go by.
-  [[nodiscard]] double usualReach(const Eigen::Vector3d& offset) const {
+  [[nodiscard]] double usualReach() const {
     std::vector<double> distances;
     for (const Group& g : groups_) {
       const auto& [feature, stylus, c_deg] = settings_[static_cast<std::size_t>(g.setting)];
-      const auto nominal = assembly_.nominal ? assembly_.nominal(feature, c_deg) : std::nullopt;
+      const auto nominal = expected(feature, c_deg);
       if (!nominal || assembly_.kind != FeatureKind::Hole) continue;
       for (const std::size_t i : g.touches) {
         if (!isSurfaceTouch(list_.touches[i], assembly_.axis)) continue;
-        Eigen::Vector3d d = list_.touches[i].position_mm - *nominal - offset;
+        Eigen::Vector3d d = list_.touches[i].position_mm - *nominal;
         d -= assembly_.axis * assembly_.axis.dot(d);
         distances.push_back(d.norm());
       }
@@ -163,43 +270,29 @@ class Assembler {
     }
     std::map<std::pair<int, int>, Eigen::Vector3d> usual;
     for (auto& [key, p] : places) {
-      if (p.x[0].size() < 3) continue;
-      usual[key] = Eigen::Vector3d(median(p.x[0]), median(p.x[1]), median(p.x[2]));
-    }
-    // Offset of the whole artefact from where the machine file has it: a clamping, not a wrong feature.
-    std::vector<double> offset_of[3];
-    for (const Group& g : groups_) {
-      const auto& [feature, stylus, c_deg] = settings_[static_cast<std::size_t>(g.setting)];
-      const auto nominal = assembly_.nominal ? assembly_.nominal(feature, c_deg) : std::nullopt;
-      if (!nominal) continue;
-      for (const std::size_t i : g.touches) {
-        const Eigen::Vector3d d = impliedCentre(list_.touches[i], g.setting) - *nominal;
-        for (int k = 0; k < 3; ++k) offset_of[k].push_back(d(k));
+      // Of two cycles the first is what the other is compared with.
+      if (p.x[0].size() < 2) continue;
+      if (p.x[0].size() == 2) {
+        usual[key] = Eigen::Vector3d(p.x[0].front(), p.x[1].front(), p.x[2].front());
+      } else {
+        usual[key] = Eigen::Vector3d(median(p.x[0]), median(p.x[1]), median(p.x[2]));
       }
     }
-    Eigen::Vector3d offset = Eigen::Vector3d::Zero();
-    if (!offset_of[0].empty()) offset = {median(offset_of[0]), median(offset_of[1]), median(offset_of[2])};
-    const Eigen::Vector3d across = offset - assembly_.axis * assembly_.axis.dot(offset);
-    if (!offset_of[0].empty() && across.norm() > 5.0) {
-      result_.warnings.push_back(fmt::format(
-          "{} stands {:.1f} mm beside where the machine file has it; its place in the machine file enters the "
-          "evaluation.",
-          artefact_.id, across.norm()));
-    }
+    findPlace();
     // Surface touches are made beside the hole; how far is the programmer's choice.
     double reach = 0.0;
     if (assembly_.nominal) {
       for (const auto& [key, p] : usual) {
         const auto& [feature, stylus, c_deg] = settings_[static_cast<std::size_t>(key.first)];
-        const auto nominal = assembly_.nominal(feature, c_deg);
+        const auto nominal = expected(feature, c_deg);
         if (nominal) {
-          Eigen::Vector3d d = p - *nominal - offset;
+          Eigen::Vector3d d = p - *nominal;
           d -= assembly_.axis * assembly_.axis.dot(d);
           reach = std::max(reach, std::min(d.norm(), 30.0));
         }
       }
     }
-    reach = std::max(reach, usualReach(offset));
+    reach = std::max(reach, usualReach());
     const double tolerance = std::max(assembly_.misplaced_mm, 0.05);
     for (const Group& g : groups_) {
       const auto& [feature, stylus, c_deg] = settings_[static_cast<std::size_t>(g.setting)];
@@ -218,16 +311,16 @@ class Assembler {
                                (t.position_mm - habit->second).norm());
         }
         const bool surface = assembly_.kind == FeatureKind::Hole && isSurfaceTouch(t, assembly_.axis);
-        const auto nominal = assembly_.nominal ? assembly_.nominal(feature, c_deg) : std::nullopt;
+        const auto nominal = expected(feature, c_deg);
         if (reason.empty() && nominal) {
-          Eigen::Vector3d d = impliedCentre(t, g.setting) - *nominal - offset;
+          Eigen::Vector3d d = impliedCentre(t, g.setting) - *nominal;
           d -= assembly_.axis * assembly_.axis.dot(d);
           // Across the touched direction the aim may be off by the play in the hole.
           const double limit = surface ? std::max(reach, 2.0) + tolerance : tolerance + 0.5 * radiusOf(g.setting);
           if (d.norm() > limit) reason = fmt::format("it is {:.3f} mm away from {}", d.norm(), feature);
         }
         if (reason.empty()) continue;
-        const std::string other = nearest(t, g.setting, c_deg, offset, usual);
+        const std::string other = nearest(t, g.setting, c_deg, usual);
         if (!other.empty() && other != feature)
           reason += fmt::format("; it lies on {} (wrong or swapped feature?)", other);
         result_.rejected.push_back({i, reason + "; left out"});
@@ -235,13 +328,13 @@ class Assembler {
     }
   }
 
-  [[nodiscard]] std::string nearest(const Touch& t, int setting, double c_deg, const Eigen::Vector3d& offset,
+  [[nodiscard]] std::string nearest(const Touch& t, int setting, double c_deg,
                                     const std::map<std::pair<int, int>, Eigen::Vector3d>& usual) const {
     std::string name;
     double best = 2.0 * std::max(assembly_.misplaced_mm, 0.05) + 3.0;
     for (const std::string& feature : assembly_.features) {
-      if (const auto nominal = assembly_.nominal ? assembly_.nominal(feature, c_deg) : std::nullopt) {
-        Eigen::Vector3d d = impliedCentre(t, setting) - *nominal - offset;
+      if (const auto nominal = expected(feature, c_deg)) {
+        Eigen::Vector3d d = impliedCentre(t, setting) - *nominal;
         d -= assembly_.axis * assembly_.axis.dot(d);
         if (d.norm() < best) {
           best = d.norm();
@@ -259,31 +352,112 @@ class Assembler {
     return name;
   }
 
+  /// Radius of the stylus centre about a feature in one cycle.
+  struct FoundRadius {
+    int cycle = 0;
+    double radius_mm = 0.0;
+  };
+
   /// Radius of the stylus centre about the feature: what the touches of all cycles say, else the machine file.
   void findRadii() {
-    std::vector<std::vector<double>> found(settings_.size());
+    std::vector<std::vector<FoundRadius>> found(settings_.size());
+    std::vector<bool> excluded(list_.touches.size(), false);
+    for (const RejectedTouch& r : result_.rejected) excluded[r.touch] = true;
     for (const Group& g : groups_) {
       const auto& [feature, stylus, c_deg] = settings_[static_cast<std::size_t>(g.setting)];
       const Stylus* s = machine_.findStylus(stylus);
+      std::vector<std::size_t> kept;
+      for (const std::size_t i : g.touches)
+        if (!excluded[i]) kept.push_back(i);
+      if (kept.empty()) continue;
       FeatureOptions options;
       options.axis = assembly_.axis;
       options.tolerate_one_bad_touch = false;
-      const ProbedFeature fit = fitFeature(list_, g.touches, assembly_.kind, s->radius_mm, options);
+      const ProbedFeature fit = fitFeature(list_, kept, assembly_.kind, s->radius_mm, options);
       if (fit.status != FitStatus::Converged) continue;
       const double side = assembly_.kind == FeatureKind::Sphere ? 1.0 : -1.0;
-      found[static_cast<std::size_t>(g.setting)].push_back(0.5 * fit.diameter_mm + side * s->radius_mm);
+      found[static_cast<std::size_t>(g.setting)].push_back({g.cycle, 0.5 * fit.diameter_mm + side * s->radius_mm});
     }
     radius_.assign(settings_.size(), 0.0);
     for (std::size_t s = 0; s < settings_.size(); ++s) {
-      const double given = radiusOf(static_cast<int>(s));
-      radius_[s] = found[s].empty() ? given : median(found[s]);
-      if (given > 0.0 && std::abs(radius_[s] - given) > 0.5 && !found[s].empty()) {
-        const auto& [feature, stylus, c_deg] = settings_[s];
-        result_.warnings.push_back(fmt::format(
-            "{} with stylus {}: the touches lie on a radius of {:.4f} mm, the machine file gives {:.4f} mm; "
-            "check diameter and stylus radius (displacements do not depend on it).",
-            feature, stylus, radius_[s], given));
+      std::vector<double> values;
+      for (const FoundRadius& r : found[s]) values.push_back(r.radius_mm);
+      radius_[s] = values.empty() ? radiusOf(static_cast<int>(s)) : median(std::move(values));
+    }
+    rejectOtherStyli(found);
+    judgeRadii(found);
+  }
+
+  /// A stylus that is another one in one cycle: all its touches there lie on a radius that is not that of the others.
+  void rejectOtherStyli(const std::vector<std::vector<FoundRadius>>& found) {
+    constexpr double telling_mm = 0.01;  // a ball warms by nanometres, a probe repeats to micrometres
+    constexpr std::size_t telling_features = 3;
+    const bool two_cycles = result_.cycles.size() < 3;
+    std::map<std::pair<std::string, int>, std::vector<double>> changes;  // by stylus and cycle
+    for (std::size_t s = 0; s < settings_.size(); ++s) {
+      if (found[s].size() < 2) continue;
+      const double usual = two_cycles ? found[s].front().radius_mm : radius_[s];
+      for (const FoundRadius& r : found[s])
+        changes[{std::get<1>(settings_[s]), r.cycle}].push_back(r.radius_mm - usual);
+    }
+    for (const auto& [key, values] : changes) {
+      const auto& [stylus, cycle] = key;
+      if (values.size() < telling_features) continue;
+      const double change = median(values);
+      const double sigma = robustSigma(values) / std::sqrt(static_cast<double>(values.size()));
+      if (!(std::abs(change) > std::max(telling_mm, 8.0 * sigma))) continue;
+      const std::string& name = result_.cycles[static_cast<std::size_t>(cycle)];
+      const std::string size = withUncertainty(change * um_per_mm, std::max(sigma * um_per_mm, 0.1), "um");
+      result_.contradict(
+          two_cycles
+              ? fmt::format(
+                    "In {} the touches with stylus {} lie on a radius that differs by {} from that in {}: another "
+                    "stylus, or a tip that is loose; they are left out.",
+                    name, stylus, size, result_.cycles.front())
+              : fmt::format(
+                    "In {} the touches with stylus {} lie on a radius that differs by {} from that in the other "
+                    "cycles: another stylus, or a tip that is loose; they are left out.",
+                    name, stylus, size));
+      for (const Group& g : groups_) {
+        if (g.cycle != cycle || std::get<1>(settings_[static_cast<std::size_t>(g.setting)]) != stylus) continue;
+        for (const std::size_t i : g.touches)
+          if (!rejectedAlready(i))
+            result_.rejected.push_back({i, fmt::format("stylus {} is not the same as in the other cycles", stylus)});
       }
+    }
+  }
+
+  [[nodiscard]] bool rejectedAlready(std::size_t touch) const {
+    return std::any_of(result_.rejected.begin(), result_.rejected.end(),
+                       [&](const RejectedTouch& r) { return r.touch == touch; });
+  }
+
+  /// What the machine file says of diameters and styli, against the touches: one sentence for all features that differ
+  /// alike.
+  void judgeRadii(const std::vector<std::vector<FoundRadius>>& found) {
+    constexpr double telling_mm = 0.1;  // more than the pre-travel of a probe that nobody calibrated
+    struct Alike {
+      std::vector<std::string> features;
+      std::vector<double> difference_mm;
+      double given_mm = 0.0;
+    };
+    std::map<std::pair<std::string, long>, Alike> alike;  // by stylus and difference, twentieths of a millimetre
+    for (std::size_t s = 0; s < settings_.size(); ++s) {
+      const double given = radiusOf(static_cast<int>(s));
+      if (!(given > 0.0) || found[s].empty() || !(std::abs(radius_[s] - given) > telling_mm)) continue;
+      const auto& [feature, stylus, c_deg] = settings_[s];
+      Alike& a = alike[{stylus, std::lround(20.0 * (radius_[s] - given))}];
+      if (std::find(a.features.begin(), a.features.end(), feature) == a.features.end()) a.features.push_back(feature);
+      a.given_mm = given;
+      for (const FoundRadius& r : found[s]) a.difference_mm.push_back(r.radius_mm - given);
+    }
+    for (const auto& [key, a] : alike) {
+      const double sigma_mm =
+          std::max(robustSigma(a.difference_mm) / std::sqrt(static_cast<double>(a.difference_mm.size())), 1e-4);
+      result_.warnings.push_back(fmt::format(
+          "{} with stylus {}: the touches lie on a radius of {:.4f} ± {:.4f} mm, the machine file gives {:.4f} mm; "
+          "check diameter and stylus radius (displacements do not depend on it).",
+          shortenedList(a.features), key.first, a.given_mm + median(a.difference_mm), sigma_mm, a.given_mm));
     }
   }
 
@@ -398,6 +572,23 @@ class Assembler {
     problem.keys = static_cast<int>(key_of.size());
   }
 
+  /// One sentence for cycles that follow one another and leave the same parameters open.
+  void tellWhatIsOpen() {
+    const std::vector<CycleSolution>& cycles = result_.fit.cycles;
+    for (std::size_t k = 0; k < cycles.size();) {
+      std::size_t last = k;
+      if (cycles[k].status == FitStatus::Degenerate) {
+        while (last + 1 < cycles.size() && cycles[last + 1].status == FitStatus::Degenerate &&
+               cycles[last + 1].determined == cycles[k].determined)
+          ++last;
+        const std::string which = last > k ? fmt::format("{} to {}", result_.cycles[k], result_.cycles[last])
+                                           : std::string(result_.cycles[k]);
+        result_.contradict(fmt::format("{}: {}.", which, cycles[k].message));
+      }
+      k = last + 1;
+    }
+  }
+
   void finish(const std::vector<bool>& excluded) {
     const CycleFitResult& fit = result_.fit;
     result_.status = fit.status;
@@ -413,10 +604,8 @@ class Assembler {
         parameter.standard_uncertainty = std::sqrt(solution.covariance(e, e)) * result_.unit[p];
         result_.parameters[k].push_back(parameter);
       }
-      if (solution.status == FitStatus::Degenerate) {
-        result_.warnings.push_back(fmt::format("{}: {}.", result_.cycles[k], solution.message));
-      }
     }
+    tellWhatIsOpen();
     // What is missing compared with the fullest cycle.
     std::size_t full = 0;
     std::vector<std::size_t> touches(result_.cycles.size(), 0);
@@ -470,6 +659,7 @@ class Assembler {
   CycleEvaluation& result_;
   std::vector<GroupKey> settings_;
   std::vector<Group> groups_;
+  ArtefactPlace place_;
   std::vector<double> radius_;
   std::vector<Eigen::Vector3d> base_;
 };

@@ -51,6 +51,8 @@ struct CycleEvaluation {
   std::vector<Eigen::Vector3d> row_normal;  ///< u of each row
   std::vector<RejectedTouch> rejected;
   std::vector<std::string> warnings;
+  /// False: a cycle leaves parameters open, or the touches contradict each other; why is among the warnings.
+  bool good_enough = true;
   std::vector<ProbedFeature> features;
   /// Growth of the artefact that was taken off: cycles x causes (strain), and the arm of each feature along which it
   /// moves (MCF, mm). Empty: none was.
@@ -59,6 +61,8 @@ struct CycleEvaluation {
 
   /// Covariance of two parameters of one cycle, in the units of their names.
   [[nodiscard]] double covariance(int cycle, int a, int b) const;
+  /// A warning for which the result is not good enough.
+  void contradict(std::string sentence);
   /// Index of a parameter by name; throws InternalError if unknown.
   [[nodiscard]] int indexOf(const std::string& name) const;
 };

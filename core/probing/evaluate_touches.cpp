@@ -52,6 +52,7 @@ void addCommon(const CycleEvaluation& evaluation, const TouchEvaluation& all, co
     out.rejected.push_back({all.touches.touches[r.touch].label(), r.reason});
   }
   out.warnings.insert(out.warnings.end(), evaluation.warnings.begin(), evaluation.warnings.end());
+  out.good_enough = out.good_enough && evaluation.good_enough;
   nlohmann::json cycles = cyclesJson(evaluation);
   for (auto& cycle : cycles["cycles"]) out.details["cycles"].push_back(std::move(cycle));
   cycles.erase("cycles");

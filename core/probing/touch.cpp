@@ -194,14 +194,26 @@ void TouchList::checkAgainst(const MachineDescription& machine) const {
   if (!ratios.empty()) {
     std::nth_element(ratios.begin(), ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2), ratios.end());
     const double ratio = ratios[ratios.size() / 2];
-    if (std::abs(ratio * mm_per_inch - 1.0) < 0.1) {
+    const auto times = [&](double factor) { return std::abs(ratio / factor - 1.0) < 0.1; };
+    constexpr double mm_per_metre = 1e3;
+    if (times(1.0 / mm_per_inch)) {
       throw InputError({file, ""},
                        "distances between features are 25.4 times too small, so positions look like inches; allowed: "
                        "millimetres.");
     }
-    if (std::abs(ratio / mm_per_inch - 1.0) < 0.1) {
+    if (times(mm_per_inch)) {
       throw InputError({file, ""},
                        "distances between features are 25.4 times too large: the machine file looks like inches; "
+                       "allowed: millimetres in both files.");
+    }
+    if (times(1.0 / mm_per_metre)) {
+      throw InputError({file, ""},
+                       "distances between features are 1000 times too small, so positions look like metres; allowed: "
+                       "millimetres.");
+    }
+    if (times(mm_per_metre)) {
+      throw InputError({file, ""},
+                       "distances between features are 1000 times too large: the machine file looks like metres; "
                        "allowed: millimetres in both files.");
     }
   }

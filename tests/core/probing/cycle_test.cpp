@@ -301,6 +301,130 @@ TEST_P(CycleKind, ACycleThatIsShiftedAsAWholeIsLeftOut) {
   }
 }
 
+/// A bar of another place on the table than the machine file says, and a little skew: the holes are found there.
+TEST(HoleCycle, ABarThatIsClampedBesideItsPlaceIsFound) {
+  const MachineDescription m = machineFrom(holeMachineText());
+  MachineDescription clamped = m;
+  Artefact& bar = clamped.artefacts.front();
+  bar.reference_in_table_mm += Eigen::Vector3d(2.4, -3.1, 0.0);
+  bar.direction_at_c0 = Eigen::AngleAxisd(0.01, Eigen::Vector3d::UnitZ()) * bar.direction_at_c0;
+  const VirtualRun run = runCycles(clamped, 4, {}, 41);
+  const HoleCycleResult result = evaluateHoleCycles(run.list, m, m.artefacts.front());
+  EXPECT_TRUE(result.rejected.empty()) << result.rejected.front().reason;
+  EXPECT_THAT(result.warnings, ::testing::Contains(::testing::HasSubstr("mm beside its place and turned by 0.57°")));
+  EXPECT_TRUE(result.good_enough);
+}
+
+/// The stylus was changed for one cycle: what it measured is left out with its reason.
+TEST_P(CycleKind, AnotherStylusInOneCycleIsTold) {
+  const MachineDescription m = machine();
+  VirtualRun run = runCycles(m, 5, {}, 43);
+  for (Touch& t : run.list.touches)
+    if (t.cycle == "M2" && t.stylus == "p0") t.position_mm -= 0.5 * t.approach;
+  const CycleEvaluation evaluation = evaluate(m, run.list);
+  EXPECT_FALSE(evaluation.good_enough);
+  EXPECT_THAT(
+      evaluation.warnings,
+      ::testing::Contains(::testing::HasSubstr("In M2 the touches with stylus p0 lie on a radius that differs by ")));
+  for (const RejectedTouch& r : evaluation.rejected) {
+    EXPECT_EQ(run.list.touches[r.touch].cycle, "M2");
+    EXPECT_EQ(run.list.touches[r.touch].stylus, "p0");
+  }
+  for (std::size_t p = 0; p < evaluation.names.size(); ++p) {
+    const CycleParameter& q = evaluation.parameters[3][p];
+    EXPECT_LT(std::abs(q.value - run.truth[3][p]), 4.5 * q.standard_uncertainty) << evaluation.names[p];
+  }
+}
+
+TEST(HoleCycle, ARadiusThatIsNotThatOfTheMachineFileIsOneSentence) {
+  MachineDescription m = machineFrom(holeMachineText());
+  const VirtualRun run = runCycles(m, 3, {}, 47);
+  m.styli.front().radius_mm = 1.25;
+  const HoleCycleResult result = evaluateHoleCycles(run.list, m, m.artefacts.front());
+  const auto told = [](const std::string& w) {
+    return w.find("the touches lie on a radius of 4.5") != std::string::npos;
+  };
+  EXPECT_EQ(std::count_if(result.warnings.begin(), result.warnings.end(), told), 1);
+  EXPECT_THAT(result.warnings, ::testing::Contains(::testing::HasSubstr("± ")));
+  EXPECT_TRUE(result.good_enough);
+}
+
+/// Artefact or probe is knocked in the middle of a cycle: the place of the step is told, the cycle is left out.
+TEST_P(CycleKind, AKnockInsideACycleIsToldAndTheCycleLeftOut) {
+  const MachineDescription m = machine();
+  for (const std::uint64_t seed : {51U, 52U, 53U}) {
+    VirtualRun run = runCycles(m, 5, {}, seed);
+    std::vector<std::size_t> of_cycle;
+    for (std::size_t i = 0; i < run.list.touches.size(); ++i)
+      if (run.list.touches[i].cycle == "M2") of_cycle.push_back(i);
+    const std::size_t first_after = of_cycle[of_cycle.size() / 2];
+    for (std::size_t i = first_after; i < run.list.touches.size(); ++i)
+      run.list.touches[i].position_mm += Eigen::Vector3d(0.02, -0.01, 0.0);
+    const CycleEvaluation evaluation = evaluate(m, run.list);
+    EXPECT_FALSE(evaluation.good_enough);
+    EXPECT_THAT(evaluation.warnings, ::testing::Contains(::testing::HasSubstr("In the middle of M2, between ")));
+    EXPECT_EQ(evaluation.fit.cycles[2].touches_used, 0);
+    for (const RejectedTouch& r : evaluation.rejected) EXPECT_EQ(run.list.touches[r.touch].cycle, "M2");
+    for (std::size_t p = 0; p < evaluation.names.size(); ++p) {
+      const CycleParameter& q = evaluation.parameters[1][p];
+      EXPECT_LT(std::abs(q.value - run.truth[1][p]), 4.5 * q.standard_uncertainty) << evaluation.names[p];
+    }
+  }
+}
+
+TEST_P(CycleKind, WithoutAKnockNoneIsFound) {
+  const MachineDescription m = machine();
+  for (std::uint64_t seed = 60; seed < 90; ++seed) {
+    VirtualRun run = runCycles(m, 4, {}, seed);
+    // A bad touch is no step.
+    run.list.touches[run.list.touches.size() / 3].position_mm.x() += 0.03;
+    const CycleEvaluation evaluation = evaluate(m, run.list);
+    EXPECT_TRUE(evaluation.good_enough) << evaluation.warnings.back();
+  }
+}
+
+TEST(BallCycle, OffsetsThatTheTouchesContradictAreTold) {
+  const VirtualRun run = runCycles(machineFrom(ballMachineText()), 3, {}, 91);
+  const auto told = [&](const std::function<void(MachineDescription&)>& change) {
+    MachineDescription m = machineFrom(ballMachineText());
+    change(m);
+    const BallCycleResult result = evaluateBallCycles(run.list, m, m.artefacts.front(), nullptr);
+    EXPECT_NE(result.good_enough, !result.warnings.empty());
+    return result.warnings;
+  };
+  EXPECT_TRUE(told([](MachineDescription&) {}).empty());
+  EXPECT_THAT(told([](MachineDescription& m) { m.styli[1].offset_mm.y() *= -1.0; }),
+              ::testing::ElementsAre(::testing::HasSubstr(
+                  "Stylus p1 touched on the whole along (0.0, 1.0, 0.0), but its offset (0, -50, -20) mm")));
+  EXPECT_THAT(told([](MachineDescription& m) { std::swap(m.styli[1].offset_mm, m.styli[2].offset_mm); }),
+              ::testing::ElementsAre(::testing::HasSubstr("Stylus p1"), ::testing::HasSubstr("Stylus p2")));
+  EXPECT_THAT(told([](MachineDescription& m) { m.styli[1].offset_mm *= 1e-3; }),
+              ::testing::ElementsAre(::testing::HasSubstr("The offset of stylus p1 is 0.0539 mm long")));
+}
+
+/// With two cycles only: the labels of two balls are swapped in the second one.
+TEST(BallCycle, SwappedBallsOfTwoCyclesAreLeftOut) {
+  const MachineDescription m = machineFrom(ballMachineText());
+  VirtualRun run = runCycles(m, 2, {}, 93);
+  for (Touch& t : run.list.touches)
+    if (t.cycle == "M1" && (t.feature == "B1" || t.feature == "B2")) t.feature = t.feature == "B1" ? "B2" : "B1";
+  const BallCycleResult result = evaluateBallCycles(run.list, m, m.artefacts.front(), nullptr);
+  EXPECT_EQ(result.rejected.size(), 30U);
+  for (const RejectedTouch& r : result.rejected) {
+    EXPECT_EQ(run.list.touches[r.touch].cycle, "M1");
+    EXPECT_THAT(r.reason, ::testing::HasSubstr("wrong or swapped feature?"));
+  }
+}
+
+TEST(BallCycle, WhatCyclesLeaveOpenIsOneSentenceAndNotGoodEnough) {
+  const MachineDescription m = machineFrom(ballMachineText());
+  VirtualRun run = runCycles(m, 6, {}, 95);
+  removeTouches(run.list, [](const Touch& t) { return t.stylus != "p0"; });
+  const BallCycleResult result = evaluateBallCycles(run.list, m, m.artefacts.front(), nullptr);
+  EXPECT_FALSE(result.good_enough);
+  EXPECT_THAT(result.warnings, ::testing::ElementsAre(::testing::HasSubstr("M1 to M5: not determined by the touches")));
+}
+
 TEST(BallCycle, DistancesAgreeWithTheCertificate) {
   const MachineDescription m = machineFrom(ballMachineText());
   VirtualProbeOptions options;

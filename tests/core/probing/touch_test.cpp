@@ -98,6 +98,27 @@ TEST_F(TouchFile, InchesAreRecognised) {
   EXPECT_THROW((void)evaluateHoleCycles(list, holes, holes.artefacts.front()), InputError);
 }
 
+TEST_F(TouchFile, MetresAreRecognised) {
+  const MachineDescription bar = machineFrom(holeMachineText());
+  const auto complaint = [](const TouchList& list, const MachineDescription& machine) {
+    try {
+      list.checkAgainst(machine);
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  const VirtualRun run = runCycles(bar, 2, {}, 1);
+  EXPECT_EQ(complaint(run.list, bar), "");
+  TouchList metres = run.list;
+  for (Touch& t : metres.touches) t.position_mm /= 1000.0;
+  EXPECT_NE(complaint(metres, bar).find("1000 times too small, so positions look like metres"), std::string::npos);
+  MachineDescription certificate = bar;
+  for (double& s : certificate.artefacts.front().nominal_positions_mm) s /= 1000.0;
+  EXPECT_NE(complaint(run.list, certificate).find("1000 times too large: the machine file looks like metres"),
+            std::string::npos);
+}
+
 TEST(Feature, BadlySpreadTouchesNameTheWeakDirection) {
   TouchList list;
   for (int k = 0; k < 4; ++k) {
