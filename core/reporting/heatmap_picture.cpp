@@ -162,6 +162,12 @@ void drawSignificance(Drawing& canvas, const HeatmapLayout& l, const Field& fiel
   }
 }
 
+/// Round marks; a scale of one or two says little, then half their distance.
+std::vector<double> scaleTicks(double from, double to, int wanted) {
+  std::vector<double> ticks = roundTicks(from, to, wanted);
+  return ticks.size() < 3 ? roundTicks(from, to, 2 * wanted) : ticks;
+}
+
 void drawAxes(Drawing& canvas, const HeatmapLayout& l, const Field& field) {
   const FieldGrid& g = field.grid;
   const double right = l.left + l.width;
@@ -171,8 +177,8 @@ void drawAxes(Drawing& canvas, const HeatmapLayout& l, const Field& field) {
         std::array{l.left, l.top, l.left, bottom}, std::array{right, l.top, right, bottom}}) {
     canvas.line(x1, y1, x2, y2, ink, 1.0);
   }
-  const std::vector<double> xs = roundTicks(g.x_from_mm, g.x_to_mm, std::max(3, static_cast<int>(l.width / 90)));
-  const std::vector<double> ys = roundTicks(g.y_from_mm, g.y_to_mm, std::max(3, static_cast<int>(l.height / 60)));
+  const std::vector<double> xs = scaleTicks(g.x_from_mm, g.x_to_mm, std::max(3, static_cast<int>(l.width / 90)));
+  const std::vector<double> ys = scaleTicks(g.y_from_mm, g.y_to_mm, std::max(3, static_cast<int>(l.height / 60)));
   const double x_step = xs.size() > 1 ? xs[1] - xs[0] : 1.0;
   const double y_step = ys.size() > 1 ? ys[1] - ys[0] : 1.0;
   for (const double x : xs) {
@@ -194,7 +200,7 @@ void drawColourBar(Drawing& canvas, const HeatmapLayout& l, const Field& field, 
     const auto [r, g, b] = coolWarm(part);
     canvas.rectangle(l.bar_left, l.top + l.height * i / steps, l.bar_width, l.height / steps + 0.5, {r, g, b});
   }
-  const std::vector<double> ticks = roundTicks(-limit, limit, std::max(3, static_cast<int>(l.height / 40)));
+  const std::vector<double> ticks = scaleTicks(-limit, limit, std::max(3, static_cast<int>(l.height / 40)));
   const double step = ticks.size() > 1 ? ticks[1] - ticks[0] : limit;
   for (const double t : ticks) {
     const double y = l.top + 0.5 * l.height * (1.0 - t / limit);
@@ -223,6 +229,7 @@ double overlap(const Box& a, const Box& b) {
 
 struct LabelPlace {
   double x = 0.0, base = 0.0;
+  double covered = 0.0;  ///< of what is there already, px^2
 };
 
 /// Where a label of a point covers least of what is there already: below, above (beyond an arrow that points up by
@@ -250,6 +257,7 @@ LabelPlace freePlace(const HeatmapLayout& l, const std::vector<Box>& taken, doub
     if (covered >= least) continue;
     least = covered;
     best = place;
+    best.covered = covered;
   }
   return best;
 }
@@ -257,6 +265,7 @@ LabelPlace freePlace(const HeatmapLayout& l, const std::vector<Box>& taken, doub
 void drawMarkers(Drawing& canvas, const HeatmapLayout& l, const Field& field, double limit) {
   constexpr double longest = 38.0;
   constexpr double size = 12.0;
+  constexpr double most_covered = 12.0;  // px^2: they touch, and can be read
   const bool across = field.component == Component::EX || field.component == Component::EB;
   std::vector<Box> taken;
   for (const Field::Marker& m : field.markers) {
@@ -281,12 +290,16 @@ void drawMarkers(Drawing& canvas, const HeatmapLayout& l, const Field& field, do
       }
     }
     canvas.disc(x, y, 4.0, m.used ? ink : white, ink);
-    const std::string label = m.point + ": " + withUncertainty(m.value, m.sigma, "");
-    // About 0.55 of the size per character.
-    const double half = 0.275 * size * static_cast<double>(lettersOf(label));
-    const LabelPlace place = freePlace(l, taken, x, y, half, size, across ? 0.0 : length);
-    taken.push_back({place.x - half, place.base - size, place.x + half, place.base + 3.0});
-    canvas.text(place.x, place.base, label, size, TextAnchor::Middle, false, false, true);
+    // Where points are close the name alone, and where that would cover another nothing: the table lists them all.
+    for (const std::string& label : {m.point + ": " + withUncertainty(m.value, m.sigma, ""), m.point}) {
+      // About 0.55 of the size per character.
+      const double half = 0.275 * size * static_cast<double>(lettersOf(label));
+      const LabelPlace place = freePlace(l, taken, x, y, half, size, across ? 0.0 : length);
+      if (place.covered > most_covered) continue;
+      taken.push_back({place.x - half, place.base - size, place.x + half, place.base + 3.0});
+      canvas.text(place.x, place.base, label, size, TextAnchor::Middle, false, false, true);
+      break;
+    }
   }
 }
 

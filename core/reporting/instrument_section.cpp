@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "core/base/text.h"
 #include "core/base/units.h"
@@ -112,34 +114,78 @@ void addTables(Report& document, const Cycles& cycles) {
   }
 }
 
+/// A parameter of an artefact over the cycles; fewer than three of them are no course.
+std::optional<PlotSeries> trendOf(const Cycles& cycles, const std::string& name, const std::string& artefact) {
+  PlotSeries trend{{}, {}, {}, {}, SeriesStyle::Points};
+  for (const CycleRow& r : cycles.rows) {
+    const double value = figureOf(r.parameters, name, "value");
+    if (r.artefact != artefact || !std::isfinite(value)) continue;
+    const double sigma = figureOf(r.parameters, name, "standard_uncertainty");
+    trend.x.push_back(r.at);
+    trend.y.push_back(value);
+    trend.sigma.push_back(std::isfinite(sigma) && !isReference(r) ? sigma : 0.0);
+  }
+  if (trend.x.size() < 3) return std::nullopt;
+  return trend;
+}
+
+/// The limits of a row of panels, with the bars, so that the same height means the same.
+void shareLimits(PlotOptions& options, const std::map<std::string, PlotSeries>& trends) {
+  double x_low = 1e300, x_high = -1e300, y_low = 1e300, y_high = -1e300;
+  for (const auto& [artefact, trend] : trends) {
+    for (std::size_t i = 0; i < trend.x.size(); ++i) {
+      x_low = std::min(x_low, trend.x[i]);
+      x_high = std::max(x_high, trend.x[i]);
+      y_low = std::min(y_low, trend.y[i] - trend.sigma[i]);
+      y_high = std::max(y_high, trend.y[i] + trend.sigma[i]);
+    }
+  }
+  const double x_margin = 0.03 * std::max(x_high - x_low, 1e-9), y_margin = 0.06 * std::max(y_high - y_low, 1e-9);
+  options.x_from = x_low - x_margin;
+  options.x_to = x_high + x_margin;
+  options.y_from = y_low - y_margin;
+  options.y_to = y_high + y_margin;
+}
+
+/// One panel a parameter; of several artefacts one row a parameter and one panel an artefact, on the same axes.
 void addTrends(Report& document, const Cycles& cycles) {
-  const PanelGrid grid = PanelGrid::of(cycles.names.size());
+  constexpr int page_px = 860;
+  constexpr std::size_t most_beside = 4;
+  const bool several = cycles.artefacts.size() > 1;
+  PanelGrid grid = PanelGrid::of(cycles.names.size());
+  if (several) {
+    grid.columns = static_cast<int>(std::min(cycles.artefacts.size(), most_beside));
+    grid.width_px = page_px / grid.columns - PanelGrid::gap_px;
+    grid.height_px = 160;
+  }
   std::vector<Drawing> panels;
   for (const std::string& name : cycles.names) {
-    std::vector<PlotSeries> trends;
-    for (const std::string& artefact : cycles.artefacts) {
-      PlotSeries trend{cycles.artefacts.size() > 1 ? artefact : std::string(), {}, {}, {}, SeriesStyle::Points};
-      for (const CycleRow& r : cycles.rows) {
-        const double value = figureOf(r.parameters, name, "value");
-        if (r.artefact != artefact || !std::isfinite(value)) continue;
-        const double sigma = figureOf(r.parameters, name, "standard_uncertainty");
-        trend.x.push_back(r.at);
-        trend.y.push_back(value);
-        trend.sigma.push_back(std::isfinite(sigma) && !isReference(r) ? sigma : 0.0);
-      }
-      if (trend.x.size() >= 3) trends.push_back(std::move(trend));
-    }
+    std::map<std::string, PlotSeries> trends;
+    for (const std::string& artefact : cycles.artefacts)
+      if (auto trend = trendOf(cycles, name, artefact)) trends.emplace(artefact, std::move(*trend));
     if (trends.empty()) continue;
     PlotOptions options{.x_label = cycles.timed ? "time / h" : "cycle",
                         .y_label = titleWithUnit(name),
                         .width_px = grid.width_px,
                         .height_px = grid.height_px,
                         .compact = true};
-    panels.push_back(plotPicture(trends, options));
+    if (several) shareLimits(options, trends);
+    for (const std::string& artefact : cycles.artefacts) {
+      const auto trend = trends.find(artefact);
+      if (trend == trends.end()) continue;
+      if (several) options.title = artefact;
+      panels.push_back(plotPicture({trend->second}, options));
+    }
+    // Every parameter begins a row.
+    while (several && panels.size() % static_cast<std::size_t>(grid.columns) != 0)
+      panels.emplace_back(grid.width_px, grid.height_px);
   }
   if (!panels.empty())
     document.figure(drawingGrid(panels, grid.columns, PanelGrid::gap_px),
-                    "Error parameters over the cycles; bars: one standard uncertainty");
+                    several
+                        ? "Error parameters over the cycles, each artefact by itself, one row on the same axes; bars: "
+                          "one standard uncertainty"
+                        : "Error parameters over the cycles; bars: one standard uncertainty");
 }
 
 std::string instrumentTitle(const std::string& instrument) {

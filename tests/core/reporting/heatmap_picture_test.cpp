@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/error.h"
+#include "core/reporting/plot_picture.h"
 
 namespace spindrift {
 namespace {
@@ -52,6 +53,45 @@ TEST(HeatmapPicture, SvgHoldsAxesUnitsPointsAndEscapesNames) {
   }
   EXPECT_EQ(svg.find("nan"), std::string::npos);
   EXPECT_EQ(svg.find("inf"), std::string::npos);
+}
+
+/// The texts of an SVG that name `point`: alone or with its value.
+std::vector<std::string> labelsOf(const std::string& svg, const std::string& point) {
+  std::vector<std::string> labels;
+  for (std::size_t at = svg.find('>' + point); at != std::string::npos; at = svg.find('>' + point, at + 1))
+    labels.push_back(svg.substr(at + 1, svg.find('<', at + 1) - at - 1));
+  return labels;
+}
+
+// Twelve points where three labels have room: values where they can be read, else names, never one over another.
+TEST(HeatmapPicture, PointsThatAreCloseHaveTheirNameAlone) {
+  Field field = someField();
+  field.markers.clear();
+  const FieldGrid& g = field.grid;
+  for (int i = 0; i < 12; ++i)
+    field.markers.push_back(
+        {"P" + std::string(1, static_cast<char>('A' + i)),
+         {g.x_from_mm + (0.4 + 0.02 * i) * (g.x_to_mm - g.x_from_mm), 0.5 * (g.y_from_mm + g.y_to_mm), 0.0},
+         1.0,
+         0.1,
+         true});
+  HeatmapPictureOptions options;
+  options.width_px = 480;
+  const std::string svg = svgOf(heatmapPicture(field, options));
+  std::size_t with_value = 0, named = 0;
+  for (const Field::Marker& m : field.markers) {
+    const std::vector<std::string> labels = labelsOf(svg, m.point);
+    if (labels.empty()) continue;
+    ++(labels.front().find(':') != std::string::npos ? with_value : named);
+  }
+  EXPECT_GE(with_value, 1U);
+  EXPECT_LT(with_value, 12U);
+  EXPECT_GE(named, 1U) << "names alone where the values have no room";
+  // A scale has three marks at least.
+  std::size_t x_marks = 0;
+  for (const double x : roundTicks(g.x_from_mm, g.x_to_mm, 6))
+    if (!labelsOf(svg, tickText(x, 50.0)).empty()) ++x_marks;
+  EXPECT_GE(x_marks, 3U);
 }
 
 TEST(HeatmapPicture, PngIsAPngOfTheLayoutsSize) {

@@ -113,6 +113,31 @@ TEST(InstrumentSection, ExplainsItsParametersAndTellsTheReference) {
   EXPECT_EQ(count(text, "<figure>"), 1U) << "all trends in one figure";
 }
 
+// Artefacts at different places err differently: over one another their bars hide each other.
+TEST(InstrumentSection, EveryArtefactHasAPanelOfItsOwnOnTheSameAxes) {
+  InstrumentEvaluation profiler;
+  profiler.instrument = "profiler";
+  for (int k = 0; k < 4; ++k)
+    for (int a = 1; a < 4; ++a)
+      profiler.details["cycles"].push_back(
+          {{"cycle", "C" + std::to_string(k)},
+           {"artefact", "A" + std::to_string(a)},
+           {"time_s", 3600.0 * k},
+           {"parameters",
+            {{"EXY_um", {{"value", 10.0 * a * k}, {"standard_uncertainty", k == 0 ? 0.0 : 1.0}}},
+             {"EYY_um", {{"value", -1.0 * k}, {"standard_uncertainty", k == 0 ? 0.0 : 1.0}}}}}});
+  Report document("t", "s");
+  addInstrument(document, profiler);
+  const std::string text = htmlOf(document);
+  EXPECT_EQ(count(text, "<figure>"), 1U);
+  EXPECT_THAT(text, HasSubstr("each artefact by itself"));
+  const std::string figure = text.substr(text.find("<figure>"), text.find("</figure>") - text.find("<figure>"));
+  for (const char* artefact : {">A1<", ">A2<", ">A3<"}) EXPECT_EQ(count(figure, artefact), 2U) << artefact;
+  // The largest value of EXY is 90 um at A3: the scale of A1 reaches as far.
+  EXPECT_EQ(count(figure, ">EXY / µm<"), 3U);
+  EXPECT_GE(count(figure, ">80<") + count(figure, ">50<"), 3U);
+}
+
 TEST(InstrumentSection, LongSeriesAreThinnedInTheTableAndItSaysSo) {
   InstrumentEvaluation probe;
   probe.instrument = "touch_probe";
