@@ -20,6 +20,11 @@ using Eigen::Index;
 InterpolatedField::InterpolatedField(Component component, std::vector<ScatteredValue> values)
     : component_(component), values_(std::move(values)) {
   SPINDRIFT_ASSERT(!values_.empty(), "a field through no values");
+  const auto [low_value, high_value] =
+      std::minmax_element(values_.begin(), values_.end(),
+                          [](const ScatteredValue& a, const ScatteredValue& b) { return a.value < b.value; });
+  lowest_ = low_value->value;
+  highest_ = high_value->value;
   const auto n = static_cast<Index>(values_.size());
   Eigen::VectorXd v(n);
   Eigen::VectorXd noise(n);
@@ -98,7 +103,8 @@ PredictedComponent InterpolatedField::predict(const DeviationQuery& query, Compo
     mean += p.weight * value;
     square += p.weight * (std::max(0.0, variance) + value * value);
   }
-  return {mean, std::sqrt(std::max(0.0, square - mean * mean))};
+  const double within = std::clamp(mean, lowest_, highest_);
+  return {within, std::hypot(std::sqrt(std::max(0.0, square - mean * mean)), mean - within)};
 }
 
 bool spreadsOverPlane(const std::vector<ScatteredValue>& values) {

@@ -6,8 +6,10 @@
 //
 // d is the difference of two places (MCF, mm). A few points do not tell s and l, so predictions are averaged over a
 // grid of both (l from a fifth of the extent of the points to three times it), weighted by their restricted likelihood;
-// the sigma holds the scatter among them and that of the mean. Values um or urad, places mm. Sources: Cressie,
-// Statistics for Spatial Data, 3.4 (kriging); Patterson and Thompson 1971 (restricted likelihood).
+// the sigma holds the scatter among them and that of the mean. A smooth process swings beyond its data between and
+// beside the points; nothing larger or smaller than was measured is stated: the value ends at the range of the values,
+// and how far it was taken back is in its sigma. Values um or urad, places mm. Sources: Cressie, Statistics for Spatial
+// Data, 3.4 (kriging); Patterson and Thompson 1971 (restricted likelihood); GUM F.2.4.5 (a correction not applied).
 #pragma once
 
 #include <Eigen/Cholesky>
@@ -32,7 +34,7 @@ class InterpolatedField : public ErrorModel {
   InterpolatedField(Component component, std::vector<ScatteredValue> values);
 
   [[nodiscard]] std::string description() const override;
-  /// Zero with infinite sigma for any other component.
+  /// Within the range of the values, um or urad. Zero with infinite sigma for any other component.
   [[nodiscard]] PredictedComponent predict(const DeviationQuery& query, Component component) const override;
 
  private:
@@ -52,6 +54,8 @@ class InterpolatedField : public ErrorModel {
 
   Component component_;
   std::vector<ScatteredValue> values_;
+  double lowest_ = 0.0;
+  double highest_ = 0.0;
   std::vector<Process> processes_;  ///< weights sum to 1
 };
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 #include <tuple>
 
 #include "core/base/error.h"
@@ -16,12 +17,18 @@
 namespace spindrift {
 namespace {
 
-using PlacedValues = std::map<std::pair<std::string, Component>, ReviewValue>;
+/// Point, component, angle of the table: readings of one place in one pose.
+using Place = std::tuple<std::string, Component, double>;
+using PlacedValues = std::map<Place, ReviewValue>;
 
-/// Mean per point and component over the rows of a state, of the observations or of a prediction. The sigma of repeated
+Place placeOf(const Observation& o) {
+  return {o.point, o.component, o.c_deg};
+}
+
+/// Mean per place over the rows of a state, of the observations or of a prediction. The sigma of repeated
 /// measurements falls with their number; a model errs alike in all.
 PlacedValues meansOf(const ObservationSet& observations, const std::string& state, const ReviewPrediction* prediction) {
-  std::map<std::pair<std::string, Component>, double> counts;
+  std::map<Place, double> counts;
   PlacedValues means;
   for (std::size_t r = 0; r < observations.rows.size(); ++r) {
     const Observation& o = observations.rows[r];
@@ -29,10 +36,10 @@ PlacedValues meansOf(const ObservationSet& observations, const std::string& stat
     const double value = prediction == nullptr ? o.value : prediction->value[r];
     const double sigma = prediction == nullptr ? o.sigma : prediction->sigma[r];
     if (!std::isfinite(value)) continue;
-    ReviewValue& mean = means[{o.point, o.component}];
+    ReviewValue& mean = means[placeOf(o)];
     mean.value += value;
     mean.sigma = prediction == nullptr ? std::hypot(mean.sigma, sigma) : mean.sigma + sigma;
-    counts[{o.point, o.component}] += 1.0;
+    counts[placeOf(o)] += 1.0;
   }
   for (auto& [place, mean] : means) {
     mean.value /= counts[place];
@@ -41,8 +48,9 @@ PlacedValues meansOf(const ObservationSet& observations, const std::string& stat
   return means;
 }
 
-/// Changes of a state from the reference, by point.
-std::vector<ReviewPoint> measuredPoints(const ObservationSet& observations, const std::string& state) {
+/// Changes of a state from the reference, by point; of one angle of the table or of all.
+std::vector<ReviewPoint> measuredPoints(const ObservationSet& observations, const std::string& state,
+                                        const std::optional<double>& c_deg) {
   const std::vector<std::string> states = observations.states();
   if (std::find(states.begin(), states.end(), state) == states.end())
     throw InputError(
@@ -50,14 +58,14 @@ std::vector<ReviewPoint> measuredPoints(const ObservationSet& observations, cons
   const PlacedValues now = meansOf(observations, state, nullptr);
   const PlacedValues cold = state == states.front() ? PlacedValues() : meansOf(observations, states.front(), nullptr);
   // What the readings have in common (the reference of an evaluation) counts once.
-  std::map<std::pair<std::string, Component>, std::vector<std::size_t>> rows_now, rows_cold;
+  std::map<Place, std::vector<std::size_t>> rows_now, rows_cold;
   for (std::size_t r = 0; r < observations.rows.size(); ++r) {
     const Observation& o = observations.rows[r];
     if (!std::isfinite(o.value)) continue;
-    if (o.state == state) rows_now[{o.point, o.component}].push_back(r);
-    if (o.state == states.front() && state != states.front()) rows_cold[{o.point, o.component}].push_back(r);
+    if (o.state == state) rows_now[placeOf(o)].push_back(r);
+    if (o.state == states.front() && state != states.front()) rows_cold[placeOf(o)].push_back(r);
   }
-  const auto sigmaOf = [&](const std::pair<std::string, Component>& place) {
+  const auto sigmaOf = [&](const Place& place) {
     std::vector<SharedNoise::Load> combination;
     const std::vector<std::size_t>& after = rows_now.at(place);
     for (const std::size_t r : after) combination.push_back({r, 1.0 / static_cast<double>(after.size())});
@@ -70,14 +78,14 @@ std::vector<ReviewPoint> measuredPoints(const ObservationSet& observations, cons
     return std::sqrt(variance);
   };
   std::vector<ReviewPoint> points;
-  std::map<std::string, std::size_t> index;
+  std::map<std::pair<std::string, double>, std::size_t> index;
   for (const Observation& o : observations.rows) {
-    if (o.state != state) continue;
-    const auto [at, fresh] = index.try_emplace(o.point, points.size());
-    if (fresh) points.push_back({o.point, o.position_mm, true, {}});
+    if (o.state != state || (c_deg && o.c_deg != *c_deg)) continue;
+    const auto [at, fresh] = index.try_emplace({o.point, o.c_deg}, points.size());
+    if (fresh) points.push_back({o.point, o.position_mm, o.c_deg, true, {}});
     ReviewPoint& p = points[at->second];
     p.used = p.used && o.use == ObservationUse::Fit;
-    const auto here = now.find({o.point, o.component});
+    const auto here = now.find(placeOf(o));
     if (here == now.end() || p.components.contains(o.component)) continue;
     ReviewValue v = here->second;
     if (const auto before = cold.find(here->first); before != cold.end()) v.value -= before->second.value;
@@ -167,9 +175,9 @@ void showPrediction(ReviewPicture& picture, const ObservationSet& observations, 
   const PlacedValues cold = request.state == reference ? PlacedValues() : meansOf(observations, reference, prediction);
   for (ReviewPoint& p : picture.points) {
     for (auto& [component, v] : p.components) {
-      const auto here = now.find({p.id, component});
+      const auto here = now.find({p.id, component, p.c_deg});
       ReviewValue model = here == now.end() ? ReviewValue{no_number, no_number} : here->second;
-      if (const auto before = cold.find({p.id, component}); before != cold.end()) {
+      if (const auto before = cold.find({p.id, component, p.c_deg}); before != cold.end()) {
         // What a gain of the model is uncertain by moves both alike: the change is as uncertain as the larger part.
         model = {model.value - before->second.value, std::max(model.sigma, before->second.sigma)};
       }
@@ -187,13 +195,22 @@ void addFieldBetween(ReviewPicture& picture, const MachineDescription& machine, 
       std::none_of(picture.points.begin(), picture.points.end(), [](const ReviewPoint& p) { return p.used; });
   std::vector<ScatteredValue> values;
   double largest = 0.0, z = 0.0;
+  std::set<double> angles;
   for (const ReviewPoint& p : picture.points) {
     const auto v = p.components.find(picture.component);
     if (v == p.components.end() || !(p.used || held_out) || !std::isfinite(v->second.value)) continue;
     values.push_back({p.position_mm, v->second.value, v->second.sigma});
     largest = std::max(largest, std::abs(v->second.value));
     z += p.position_mm.z();
+    angles.insert(p.c_deg);
   }
+  const auto why = [&picture](std::string reason) {
+    if (picture.message.empty()) picture.message = std::move(reason);
+  };
+  if (angles.size() > 1)
+    return why(fmt::format("Points at {} angles of the table have no common heat map: choose one.", angles.size()));
+  if (values.size() > 2 && !spreadsOverPlane(values))
+    return why("The points lie on one line, so there is no heat map between them.");
   if (!spreadsOverPlane(values)) return;
   // A prediction may state no uncertainty; a field needs some.
   const double least = std::max(1e-4, 1e-3 * largest);
@@ -253,12 +270,20 @@ ReviewPrediction reviewCompleted(const DiscrepancyStory& story, const Observatio
   return out;
 }
 
+std::vector<double> tableAngles(const ObservationSet& observations) {
+  std::set<double> angles;
+  for (const Observation& o : observations.rows) angles.insert(o.c_deg);
+  return {angles.begin(), angles.end()};
+}
+
 ReviewPicture reviewOf(const ObservationSet& observations, const MachineDescription& machine,
                        const ReviewRequest& request, const ReviewPrediction* prediction) {
   ReviewPicture picture;
   picture.component = request.component;
   picture.title = fmt::format("{}, {}", request.state, toString(request.quantity));
-  picture.points = measuredPoints(observations, request.state);
+  picture.points = measuredPoints(observations, request.state, request.c_deg);
+  if (picture.points.empty() && request.c_deg)
+    picture.message = fmt::format("{} was not measured with the table at {:g}°.", request.state, *request.c_deg);
   switch (request.quantity) {
     case ReviewQuantity::Measured:
       break;
@@ -283,10 +308,10 @@ ReviewPicture reviewDifference(const ReviewPicture& a, const ReviewPicture& b) {
   d.component = b.component;
   d.title = fmt::format("{} minus {}", b.title, a.title);
   for (const ReviewPoint& p : b.points) {
-    const auto other =
-        std::find_if(a.points.begin(), a.points.end(), [&](const ReviewPoint& q) { return q.id == p.id; });
+    const auto other = std::find_if(a.points.begin(), a.points.end(),
+                                    [&](const ReviewPoint& q) { return q.id == p.id && q.c_deg == p.c_deg; });
     if (other == a.points.end()) continue;
-    ReviewPoint both{p.id, p.position_mm, p.used && other->used, {}};
+    ReviewPoint both{p.id, p.position_mm, p.c_deg, p.used && other->used, {}};
     for (const auto& [component, v] : p.components) {
       const auto w = other->components.find(component);
       if (w != other->components.end())

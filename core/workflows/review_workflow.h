@@ -6,7 +6,9 @@
 // models. Three kinds of models are shown: the nine parameters of the state, the simulation that the campaign names,
 // and this simulation with the effects that were added to it. The heat map of the nine parameters is the model over the
 // table; every other heat map is a field between the points (kriging, core/machine/interpolated_field.h), where these
-// spread over the plane. A difference is `b` minus `a`; both are taken as independent: sigma^2 = sigma_a^2 + sigma_b^2.
+// spread over the plane. Such a map is of one angle of a rotary table: what stands at another angle is another place on
+// the table, and its deviation holds for another pose of the machine. A difference is `b` minus `a`; both are taken as
+// independent: sigma^2 = sigma_a^2 + sigma_b^2.
 #pragma once
 
 #include <map>
@@ -41,6 +43,8 @@ struct ReviewRequest {
   int nodes = 81;            ///< of the longer side of a model's heat map; between points half of it
   bool heat_map = false;     ///< also between points; that of the nine parameters is always there
   NineParameterOptions fit;  ///< of the nine parameters; its state counts for nothing beside `state`
+  /// Only points that were measured at this angle of the table; without it all, and several angles have no map between.
+  std::optional<double> c_deg;
 };
 
 /// What a model says for every row of the observations, um or urad; NaN where it says nothing. Empty `value`: there is
@@ -64,6 +68,7 @@ struct ReviewValue {
 struct ReviewPoint {
   std::string id;
   Eigen::Vector3d position_mm = Eigen::Vector3d::Zero();
+  double c_deg = 0.0;                           ///< rotation of the table about +Z
   bool used = true;                             ///< false: holdout or excluded
   std::map<Component, ReviewValue> components;  ///< everything known at the point
 };
@@ -77,6 +82,9 @@ struct ReviewPicture {
   std::string message;         ///< why there is no heat map; empty if there is or none was asked for
   double largest = 0.0;        ///< |value| of the component over points and determined nodes
 };
+
+/// Angles of the table at which anything was measured, ascending, deg; at least one where there are observations.
+[[nodiscard]] std::vector<double> tableAngles(const ObservationSet& observations);
 
 /// Points and heat map of one state. `prediction` is of the model asked for; not used for measured values and the nine
 /// parameters. Throws InputError for a state that does not exist.

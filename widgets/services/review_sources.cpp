@@ -58,8 +58,7 @@ void ReviewSources::refresh() {
 
 std::vector<std::pair<std::int64_t, QString>> ReviewSources::campaigns() const {
   std::vector<std::pair<std::int64_t, QString>> out;
-  for (const CampaignRecord& record : session_.campaigns())
-    out.emplace_back(record.id, QString::fromStdString(record.name));
+  for (const CampaignRecord& record : session_.campaigns()) out.emplace_back(record.id, QString::fromStdString(record.name));
   return out;
 }
 
@@ -80,7 +79,10 @@ std::shared_ptr<const ReviewSource> ReviewSources::source(std::int64_t id) {
     source->id = id;
     source->fit = chosen<NineParameterChoice>(*session_.session(), id).options();
     source->name = QString::fromStdString(source->campaign->name);
-    if (source->observations) source->states = source->observations->states();
+    if (source->observations) {
+      source->states = source->observations->states();
+      source->angles_deg = tableAngles(*source->observations);
+    }
     if (source->campaign->captureList("scans.csv")) source->scans = readScanList(*source->campaign);
   } catch (const InputError&) {
     source.reset();

@@ -54,6 +54,26 @@ TEST(InterpolatedField, OneValueIsPossible) {
   EXPECT_GE(sigma, 0.49);
 }
 
+// A ridge that the points only touch: a smooth process swings over it, and beyond the table it runs away.
+TEST(InterpolatedField, SaysNothingLargerThanWasMeasuredAndCountsWhatItTookBack) {
+  std::vector<ScatteredValue> values;
+  for (const double x : {0.0, 100.0, 200.0, 300.0}) {
+    for (const double y : {0.0, 100.0}) values.push_back({{x, y, 0.0}, x == 0.0 || x == 300.0 ? 0.0 : 10.0, 0.01});
+  }
+  const InterpolatedField field(Component::EZ, values);
+  for (double x = -200.0; x <= 500.0; x += 10.0) {
+    const double v = at(field, {x, 50.0, 0.0});
+    EXPECT_GE(v, 0.0) << x;
+    EXPECT_LE(v, 10.0) << x;
+  }
+  // Of all values that were told the top of the ridge is the least certain one between the points.
+  double top = 0.0, slope = 0.0;
+  (void)at(field, {150.0, 50.0, 0.0}, &top);
+  (void)at(field, {100.0, 0.0, 0.0}, &slope);
+  EXPECT_GT(top, 0.5) << "how far it was taken back";
+  EXPECT_LT(slope, 0.02);
+}
+
 // Smooth courses over the table of other kinds than the model: waves and slopes of random direction and length.
 TEST(InterpolatedField, TheTruthLiesInsideTheStatedIntervalAsOftenAsStated) {
   Random random(11);

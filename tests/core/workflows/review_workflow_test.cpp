@@ -147,6 +147,51 @@ TEST(Review, HeatMapsBetweenPointsFollowTheTruthWithinTheirUncertainty) {
   EXPECT_FALSE(reviewOf(states(3), table(), request).field.has_value());
 }
 
+// Nine points at each of two angles of the table, EX rising along X at 0 deg and falling at 90 deg; one name for both.
+TEST(Review, AMapIsOfOneAngleOfTheTable) {
+  std::string csv = "time_s,state,point,x_mm,y_mm,z_mm,c_deg,component,value,sigma,instrument,use\n";
+  for (int s = 0; s < 2; ++s)
+    for (int p = 0; p < 9; ++p)
+      for (const int c : {0, 90}) {
+        const double x = 30.0 + 120.0 * (p % 3), y = 20.0 + 80.0 * (p / 3);
+        csv += fmt::format("{},M{},P{},{},{},0,{},EX,{},0.3,probe,fit\n", 60 * s + c / 90, s, p, x, y, c,
+                           s * x / 100.0 * (c == 0 ? 1.0 : -1.0));
+      }
+  const ObservationSet all = ObservationSet::parse(csv, "o.csv");
+  EXPECT_EQ(tableAngles(all), (std::vector<double>{0.0, 90.0}));
+  ReviewRequest request{"M1", ReviewQuantity::Measured, Component::EX};
+  request.heat_map = true;
+  const ReviewPicture both = reviewOf(all, table(), request);
+  EXPECT_EQ(both.points.size(), 18U);
+  EXPECT_FALSE(both.field.has_value());
+  EXPECT_EQ(both.message, "Points at 2 angles of the table have no common heat map: choose one.");
+  for (const double c : {0.0, 90.0}) {
+    request.c_deg = c;
+    const ReviewPicture one = reviewOf(all, table(), request);
+    ASSERT_EQ(one.points.size(), 9U);
+    ASSERT_TRUE(one.field.has_value()) << one.message;
+    EXPECT_NEAR(one.points[2].components.at(Component::EX).value, c == 0.0 ? 2.7 : -2.7, 1e-12);
+    EXPECT_NEAR(one.points[2].components.at(Component::EX).sigma, 0.3 * std::sqrt(2.0), 1e-12);
+    // Nowhere more than was measured: 0.3 to 2.7 um, or their negatives.
+    for (const double v : one.field->value) {
+      EXPECT_GE(std::abs(v), 0.3 - 1e-12);
+      EXPECT_LE(std::abs(v), 2.7 + 1e-12);
+    }
+    EXPECT_LE(one.largest, 2.7 + 1e-12);
+  }
+  request.c_deg = 45.0;
+  EXPECT_TRUE(reviewOf(all, table(), request).points.empty());
+  EXPECT_EQ(reviewOf(all, table(), request).message, "M1 was not measured with the table at 45°.");
+}
+
+TEST(Review, PointsOnOneLineHaveNoMapAndThatIsSaid) {
+  ReviewRequest request{"M2", ReviewQuantity::Measured, Component::EX};
+  request.heat_map = true;
+  const ReviewPicture line = reviewOf(states(3), table(), request);
+  EXPECT_FALSE(line.field.has_value());
+  EXPECT_EQ(line.message, "The points lie on one line, so there is no heat map between them.");
+}
+
 TEST(Review, SimulationAndItsCompletionAreShownAsChanges) {
   const ObservationSet all = states(9);
   ReviewPrediction half;  // half of EX, and an offset that a change does not show

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What the panes of a review show: worked out in the background, applied to all panes together.
 #include <QCheckBox>
+#include <QComboBox>
 #include <QLabel>
 #include <QSlider>
 #include <algorithm>
@@ -68,6 +69,7 @@ std::vector<PaneAnswer> answersTo(const std::vector<PaneRequest>& requests, cons
 
 void ReviewPage::showAll() {
   if (filling_ || session().campaign() == nullptr) return;
+  fillAngles();
   const std::string at_slider = stateAtSlider();
   slider_text_->setText(
       states_.empty() ? QString()
@@ -84,6 +86,7 @@ void ReviewPage::showAll() {
       r.request.component = static_cast<Component>(component_->current());
       r.difference = pane->content() == PaneContent::Difference;
       r.request.heat_map = heat_maps_->isChecked();
+      r.request.c_deg = angle();
       if (const auto quantity = quantityOf(r.difference ? panes_[0]->content() : pane->content()))
         r.request.quantity = *quantity;
       else

@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <QCheckBox>
+#include <QComboBox>
 #include <QDoubleSpinBox>
 #include <QGridLayout>
 #include <QHBoxLayout>
@@ -50,6 +51,11 @@ ReviewPage::ReviewPage(PageContext page_context, QWidget* parent)
   component_ = new Segments({QStringLiteral("EX"), QStringLiteral("EY"), QStringLiteral("EZ"), QStringLiteral("EA"),
                              QStringLiteral("EB"), QStringLiteral("EC")},
                             tr("Component"));
+  angle_ = new QComboBox;
+  angle_->setAccessibleName(tr("Angle of the table"));
+  angle_->setToolTip(tr("Panes, points and section show what was measured at this angle of the table."));
+  angle_->setSizeAdjustPolicy(QComboBox::AdjustToContents);
+  angle_->hide();
   heat_maps_ = new QCheckBox(tr("Between points"));
   heat_maps_->setToolTip(
       tr("A heat map between the points (interpolated with its uncertainty). That of the nine parameters is the model "
@@ -59,6 +65,7 @@ ReviewPage::ReviewPage(PageContext page_context, QWidget* parent)
   machine_ = new QCheckBox(tr("Machine"));
   options->addWidget(count_);
   options->addWidget(component_);
+  options->addWidget(angle_);
   options->addWidget(heat_maps_);
   options->addWidget(arrows_);
   options->addWidget(machine_);
@@ -123,6 +130,7 @@ ReviewPage::ReviewPage(PageContext page_context, QWidget* parent)
     showAll();
   });
   connect(component_, &Segments::chosen, this, &ReviewPage::showAll);
+  connect(angle_, &QComboBox::currentIndexChanged, this, &ReviewPage::showAll);
   connect(heat_maps_, &QCheckBox::toggled, this, &ReviewPage::showAll);
   connect(arrows_, &QCheckBox::toggled, this, &ReviewPage::showAll);
   connect(machine_, &QCheckBox::toggled, this, [this] {
@@ -256,6 +264,36 @@ void ReviewPage::fillSlider() {
   slider_->setValue(slider_->maximum());
   slider_->setEnabled(states_.size() > 1);
   play_->setEnabled(states_.size() > 1);
+}
+
+void ReviewPage::fillAngles() {
+  std::set<double> angles;
+  for (const ReviewPane* pane : panes_) {
+    const auto source = pane->isHidden() ? nullptr : pane->source();
+    if (source != nullptr) angles.insert(source->angles_deg.begin(), source->angles_deg.end());
+  }
+  QVariantList wanted;
+  if (angles.size() > 1) {
+    for (const double c_deg : angles) wanted << c_deg;
+    wanted << QVariant();  // all of them
+  }
+  QVariantList offered;
+  for (int i = 0; i < angle_->count(); ++i) offered << angle_->itemData(i);
+  if (offered != wanted) {
+    const QSignalBlocker quiet(angle_);
+    const QString before = angle_->currentText();
+    angle_->clear();
+    for (const QVariant& c_deg : wanted)
+      angle_->addItem(
+          c_deg.isValid() ? tr("Table at %1°").arg(decimalText(c_deg.toDouble(), 'g', 6)) : tr("All angles"), c_deg);
+    angle_->setCurrentIndex(wanted.isEmpty() ? -1 : std::max(0, angle_->findText(before)));
+  }
+  angle_->setVisible(!wanted.isEmpty());
+}
+
+std::optional<double> ReviewPage::angle() const {
+  const QVariant c_deg = angle_->currentData();
+  return c_deg.isValid() ? std::optional(c_deg.toDouble()) : std::nullopt;
 }
 
 std::string ReviewPage::stateAtSlider() const {

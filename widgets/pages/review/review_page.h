@@ -43,6 +43,8 @@ class ReviewPage : public Page {
   [[nodiscard]] QTableView* tableView() const { return table_; }
   [[nodiscard]] Plot* section() const { return section_; }
   [[nodiscard]] QSlider* slider() const { return slider_; }
+  /// Hidden where the table stood at one angle only.
+  [[nodiscard]] QComboBox* angleChoice() const { return angle_; }
 
  private:
   void layOutPanes();
@@ -50,6 +52,10 @@ class ReviewPage : public Page {
   /// Of the campaigns in the panes.
   void sayWhatIsOutdated();
   void fillSlider();
+  /// Angles of the table at which the campaigns in the panes were measured; the choice stays where it can.
+  void fillAngles();
+  /// Nothing: all angles.
+  [[nodiscard]] std::optional<double> angle() const;
   [[nodiscard]] std::string stateAtSlider() const;
   void showAll();
   void showScans();
@@ -67,6 +73,7 @@ class ReviewPage : public Page {
   QGridLayout* grid_;
   Segments* count_;
   Segments* component_;
+  QComboBox* angle_;
   QCheckBox* arrows_;
   QCheckBox* heat_maps_;
   QCheckBox* machine_;

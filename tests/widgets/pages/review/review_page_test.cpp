@@ -137,6 +137,42 @@ TEST_F(Review, StatesStandSideBySideWithOneScaleAndOneCamera) {
   }
 }
 
+// Points at two angles of the table are places of two tables: one angle is shown, and each has its own map.
+TEST_F(Review, PanesShowOneAngleOfTheTable) {
+  const std::filesystem::path folder = writeStates("turned", 1.0);
+  std::string csv = "time_s,state,point,x_mm,y_mm,z_mm,c_deg,component,value,sigma,instrument,use\n";
+  for (int state = 0; state < 2; ++state)
+    for (const int c : {0, 120})
+      for (int p = 0; p < 9; ++p)
+        csv += fmt::format("{},M{},P{}@{},{},{},0,{},EX,{},0.2,touch_probe,fit\n", 3600 * state, state, p + 1, c,
+                           30 + 120 * (p % 3), 30 + 120 * (p / 3), c, state * (c == 0 ? 1.0 : -1.0) * (5.0 + p));
+  writeFileAtomically(folder / "observations.csv", csv);
+  open(folder);
+  auto* page = go<ReviewPage>(StepId::Review);
+  ASSERT_TRUE(waitForJobs(*window_, 30));
+  QComboBox* angle = page->angleChoice();
+  ASSERT_TRUE(angle->isVisible());
+  EXPECT_EQ(angle->currentText(), QStringLiteral("Table at 0°"));
+  ASSERT_EQ(page->pane(1)->picture().points.size(), 9U);
+  ASSERT_TRUE(page->pane(1)->picture().field.has_value());
+  for (const double v : page->pane(1)->picture().field->value) EXPECT_TRUE(v >= 5.0 && v <= 13.0) << v;
+  angle->setCurrentIndex(angle->findText(QStringLiteral("Table at 120°")));
+  ASSERT_TRUE(waitForJobs(*window_, 30));
+  ASSERT_EQ(page->pane(1)->picture().points.size(), 9U);
+  for (const double v : page->pane(1)->picture().field->value) EXPECT_TRUE(v <= -5.0 && v >= -13.0) << v;
+  EXPECT_EQ(page->table()->rowCount(), 9);
+  angle->setCurrentIndex(angle->findText(QStringLiteral("All angles")));
+  ASSERT_TRUE(waitForJobs(*window_, 30));
+  EXPECT_EQ(page->pane(1)->picture().points.size(), 18U);
+  EXPECT_FALSE(page->pane(1)->picture().field.has_value());
+  // One angle needs no choice.
+  window_->closeSession();
+  open(writeStates("still", 1.0));
+  page = go<ReviewPage>(StepId::Review);
+  ASSERT_TRUE(waitForJobs(*window_, 30));
+  EXPECT_FALSE(page->angleChoice()->isVisible());
+}
+
 TEST_F(Review, PlaybackRunsThroughTheStates) {
   open(writeStates("states", 1.0));
   auto* page = go<ReviewPage>(StepId::Review);
