@@ -45,7 +45,7 @@ std::pair<double, double> atOrigin(const ScanResult& s, int i) {
 }
 
 std::pair<double, double> atArtefact(const ScanResult& s, int i) {
-  const double sigma = s.registration.standardUncertainty(i);
+  const double sigma = s.standardUncertaintyAtArtefact(i);
   if (!std::isfinite(sigma)) return {std::nan(""), std::nan("")};
   return {valueOf(SmallError{s.registration.translation_mm, s.registration.rotation_rad}, static_cast<Component>(i)),
           factorOf(i) * sigma};

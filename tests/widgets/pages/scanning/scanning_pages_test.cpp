@@ -286,6 +286,19 @@ TEST_F(ScanningPages, ModelShowsTheSixErrorsUnderEitherScanModel) {
   ASSERT_TRUE(waitForJobs(*window_, 60));
   EXPECT_EQ(window_->session().result("fit")->payload.at("scan_model"), "rigid");
   EXPECT_EQ(page->callout()->tone(), Tone::Attention) << "the machine says push broom";
+  // At the artefact: with what the mounting leaves uncertain, as the observations have it.
+  page->setComponent(0);
+  JobContext job;
+  const ScanEvaluation evaluation = evaluateScanCampaign(Campaign::read(folder_ / "campaign"), "rigid", job);
+  bool widened = false;
+  for (const ScanResult& s : evaluation.scans) {
+    const double sigma = s.standardUncertaintyAtArtefact(0);
+    if (s.reference || !std::isfinite(sigma)) continue;
+    EXPECT_EQ(cells(*page->values(), QString::fromStdString(s.capture.cloud)).at(2).text,
+              quantityCell(1e3 * s.registration.translation_mm(0), 1e3 * sigma).text);
+    widened = widened || sigma > 1.2 * s.registration.standardUncertainty(0);
+  }
+  EXPECT_TRUE(widened);
   window_->undoStack().undo();
   ASSERT_TRUE(waitForJobs(*window_, 60));
   EXPECT_EQ(window_->session().result("fit")->payload.at("scan_model"), "push_broom");
