@@ -13,6 +13,8 @@ namespace spindrift::gui {
 namespace {
 
 constexpr double least_step_px = 3;
+constexpr double key_step_px = 8;
+constexpr double large_key_step_px = 40;
 
 }  // namespace
 
@@ -74,16 +76,33 @@ MaskStroke CloudPainter::stroke() const {
 void CloudPainter::mousePressEvent(QMouseEvent* event) {
   if (event->button() != Qt::LeftButton || view_->empty()) return event->ignore();
   setFocus(Qt::MouseFocusReason);
-  lookDown();
-  painting_ = true;
-  path_ = QPolygonF({event->position()});
-  update();
+  by_keyboard_ = false;
+  begin(event->position());
 }
 
 void CloudPainter::mouseMoveEvent(QMouseEvent* event) {
-  cursor_ = event->position();
+  by_keyboard_ = false;
+  moveTo(event->position());
+  if (!painting_) event->ignore();
+}
+
+void CloudPainter::mouseReleaseEvent(QMouseEvent* event) {
+  if (event->button() != Qt::LeftButton || !painting_) return event->ignore();
+  moveTo(event->position());
+  finish();
+}
+
+void CloudPainter::begin(const QPointF& place) {
+  lookDown();
+  painting_ = true;
+  path_ = QPolygonF({place});
   update();
-  if (!painting_) return event->ignore();
+}
+
+void CloudPainter::moveTo(const QPointF& place) {
+  cursor_ = place;
+  update();
+  if (!painting_) return;
   if (tool_ == PaintTool::Rectangle) {
     path_ = QPolygonF({path_.front(), cursor_});
   } else if ((cursor_ - path_.back()).manhattanLength() >= least_step_px) {
@@ -91,9 +110,7 @@ void CloudPainter::mouseMoveEvent(QMouseEvent* event) {
   }
 }
 
-void CloudPainter::mouseReleaseEvent(QMouseEvent* event) {
-  if (event->button() != Qt::LeftButton || !painting_) return event->ignore();
-  mouseMoveEvent(event);
+void CloudPainter::finish() {
   painting_ = false;
   const qsizetype least = tool_ == PaintTool::Lasso ? 3 : tool_ == PaintTool::Rectangle ? 2 : 1;
   const MaskStroke done = path_.size() >= least ? stroke() : MaskStroke{};
@@ -103,10 +120,46 @@ void CloudPainter::mouseReleaseEvent(QMouseEvent* event) {
 }
 
 void CloudPainter::keyPressEvent(QKeyEvent* event) {
-  if (event->key() != Qt::Key_Escape || !painting_) return QWidget::keyPressEvent(event);
-  painting_ = false;
-  path_.clear();
+  if (tool_ == PaintTool::Look || view_->empty()) return QWidget::keyPressEvent(event);
+  const double step = event->modifiers() & Qt::ShiftModifier     ? 1.0
+                      : event->modifiers() & Qt::ControlModifier ? large_key_step_px
+                                                                 : key_step_px;
+  if (!by_keyboard_ && !painting_) cursor_ = QRectF(rect()).center();
+  QPointF to = cursor_;
+  switch (event->key()) {
+    case Qt::Key_Left:
+      to.rx() -= step;
+      break;
+    case Qt::Key_Right:
+      to.rx() += step;
+      break;
+    case Qt::Key_Up:
+      to.ry() -= step;
+      break;
+    case Qt::Key_Down:
+      to.ry() += step;
+      break;
+    case Qt::Key_Space:
+      by_keyboard_ = true;
+      painting_ ? finish() : begin(cursor_);
+      return;
+    case Qt::Key_Escape:
+      if (!painting_) return QWidget::keyPressEvent(event);
+      painting_ = false;
+      path_.clear();
+      update();
+      return;
+    default:
+      return QWidget::keyPressEvent(event);
+  }
+  by_keyboard_ = true;
+  moveTo({std::clamp(to.x(), 0.0, width() - 1.0), std::clamp(to.y(), 0.0, height() - 1.0)});
+}
+
+void CloudPainter::focusOutEvent(QFocusEvent* event) {
+  by_keyboard_ = false;
   update();
+  QWidget::focusOutEvent(event);
 }
 
 bool CloudPainter::eventFilter(QObject* watched, QEvent* event) {
@@ -132,7 +185,13 @@ void CloudPainter::paintEvent(QPaintEvent*) {
     painter.setPen(QPen(fill, 2 * radius, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin));
     painter.drawPolyline(path_);
   }
-  if (tool_ == PaintTool::Brush && (painting_ || underMouse())) {
+  if (by_keyboard_) {
+    constexpr double arm = 10;
+    painter.setPen(QPen(line, 1.5));
+    painter.drawLine(cursor_ - QPointF(arm, 0), cursor_ + QPointF(arm, 0));
+    painter.drawLine(cursor_ - QPointF(0, arm), cursor_ + QPointF(0, arm));
+  }
+  if (tool_ == PaintTool::Brush && (painting_ || underMouse() || by_keyboard_)) {
     painter.setPen(QPen(line, 1.5));
     painter.setBrush(Qt::NoBrush);
     painter.drawEllipse(cursor_, radius, radius);

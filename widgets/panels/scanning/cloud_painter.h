@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Paints areas of a scan: a transparent sheet over the 3D view that turns strokes of the mouse into strokes of a mask.
 // Painting looks straight down, so that what is covered on the screen is what is covered on the scan; wheel, middle and
-// right button still move the picture. Escape gives a stroke up.
+// right button still move the picture. By keyboard: arrows move a cross (with Shift by single pixels, with Ctrl in
+// large steps), Space begins a stroke where it stands and ends it. Escape gives a stroke up.
 #pragma once
 
 #include <QPolygonF>
@@ -35,10 +36,14 @@ class CloudPainter : public QWidget {
   void mouseMoveEvent(QMouseEvent* event) override;
   void mouseReleaseEvent(QMouseEvent* event) override;
   void keyPressEvent(QKeyEvent* event) override;
+  void focusOutEvent(QFocusEvent* event) override;
   bool eventFilter(QObject* watched, QEvent* event) override;
 
  private:
   void lookDown();
+  void begin(const QPointF& place);
+  void moveTo(const QPointF& place);
+  void finish();
   [[nodiscard]] double pixelsPerMm() const;
   [[nodiscard]] MaskStroke stroke() const;
 
@@ -49,6 +54,7 @@ class CloudPainter : public QWidget {
   bool painting_ = false;
   QPolygonF path_;  ///< pixels
   QPointF cursor_;
+  bool by_keyboard_ = false;  ///< the cross is shown
 };
 
 }  // namespace spindrift::gui

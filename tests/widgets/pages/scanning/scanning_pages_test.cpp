@@ -219,6 +219,37 @@ TEST_F(ScanningPages, APartIsPaintedAwayAndTakenBack) {
   EXPECT_TRUE(window_->session().excluded().empty());
 }
 
+TEST_F(ScanningPages, APartIsPaintedAwayByKeyboardAlone) {
+  openScans("rigid", false);
+  auto* page = go<ScanCapturePage>(StepId::Capture);
+  page->select(QStringLiteral("captures/clouds/A1_C2.pcd"));
+  ASSERT_TRUE(waitForJobs(*window_, 60));
+  page->maskBar()->tools()->button(static_cast<int>(PaintTool::Rectangle))->click();
+  ASSERT_TRUE(waitForJobs(*window_, 60));
+  CloudPainter* sheet = page->maskBar()->painter();
+  sheet->setFocus(Qt::TabFocusReason);
+  const auto press_key = [&](Qt::Key key, int times, Qt::KeyboardModifiers with = Qt::NoModifier) {
+    for (int i = 0; i < times; ++i) QTest::keyClick(sheet, key, with);
+  };
+  // Begun and given up: nothing is painted.
+  press_key(Qt::Key_Space, 1);
+  press_key(Qt::Key_Right, 3);
+  press_key(Qt::Key_Escape, 1);
+  EXPECT_EQ(window_->undoStack().count(), 0);
+  // From the middle up to the left, then down to the right over the middle.
+  press_key(Qt::Key_Up, 2);
+  press_key(Qt::Key_Left, 4);
+  press_key(Qt::Key_Space, 1);
+  press_key(Qt::Key_Right, 1, Qt::ControlModifier);
+  press_key(Qt::Key_Down, 4);
+  press_key(Qt::Key_Down, 3, Qt::ShiftModifier);
+  press_key(Qt::Key_Space, 1);
+  ASSERT_TRUE(waitForJobs(*window_, 60));
+  ASSERT_EQ(window_->undoStack().count(), 1);
+  EXPECT_GT(page->picture().counts[3], 0U) << "points of the rectangle";
+  ASSERT_EQ(window_->session().excluded().size(), 1U);
+}
+
 TEST_F(ScanningPages, CalibrationShowsWhatItCannotDetermine) {
   openScans("rigid", false);
   auto* page = go<ProfilerCalibrationPage>(StepId::Calibrate);
