@@ -67,7 +67,9 @@ void Camera::look(StandardView view) {
   constexpr double right_angle = std::numbers::pi / 2;
   switch (view) {
     case StandardView::Isometric:
-      azimuth_rad = -0.96;
+      // From the side of the table, not of the column: this stands at +Y of a vertical spindle, at +Z of a horizontal
+      // one.
+      azimuth_rad = std::abs(vertical.y()) > 0.9 ? 0.96 : -0.96;
       elevation_rad = 0.52;
       break;
     case StandardView::Top:

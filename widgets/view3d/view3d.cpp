@@ -100,7 +100,10 @@ void View3D::clear() {
 void View3D::setMachine(const MachineDescription& machine) {
   machine_ = machine;
   bodies_ = machineBodies(machine);
-  camera_.vertical = bodies_->vertical;
+  if (camera_.vertical != bodies_->vertical) {
+    camera_.vertical = bodies_->vertical;
+    if (!at_map_) camera_.look(StandardView::Isometric);
+  }
   if (scene_ != nullptr) scene_->setBodies(*bodies_);
   fitted_ = false;
   changed();

@@ -4,6 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <QRectF>
+#include <string>
+
+#include "core/base/json_reader.h"
+#include "core/machine/machine_description.h"
+#include "widgets/view3d/machine_bodies.h"
 
 namespace spindrift::gui {
 namespace {
@@ -26,6 +31,28 @@ TEST(Camera, FrontViewOfAHorizontalMachine) {
   camera.look(StandardView::Front);
   EXPECT_NEAR((camera.up() - Eigen::Vector3d::UnitY()).norm(), 0, tiny);
   EXPECT_NEAR(std::abs(camera.right().x()), 1, tiny);
+}
+
+// Nothing stands between the viewer and what measures: the column is behind the spindle, the spindle over the table.
+TEST(Camera, ColumnStandsBehindTheSpindleOfEitherKindOfMachine) {
+  for (const char* chain : {"V [w-X'-Y'-b-Z-(C)-t]", "H [w-Z'-b-X-Y-(C)-t]"}) {
+    const std::string text = std::string(R"({"format":"spindrift-machine","version":1,"name":"m","chain":")") + chain +
+                             R"(","axes":[{"name":"X","travel_mm":[0,500]},{"name":"Y","travel_mm":[0,500]},
+{"name":"Z","travel_mm":[0,500]}]})";
+    const MachineBodies bodies =
+        machineBodies(MachineDescription::parse(JsonNode::parse(text, "machine.json"), "machine.json"), 0.0);
+    Camera camera;
+    camera.vertical = bodies.vertical;
+    camera.look(StandardView::Isometric);
+    const auto depthOf = [&](BodyKind kind) {
+      for (const auto& body : bodies.bodies)
+        if (body.kind == kind) return camera.depth_mm(0.5 * (body.low_mm + body.high_mm));
+      ADD_FAILURE() << chain;
+      return 0.0;
+    };
+    EXPECT_LT(depthOf(BodyKind::Spindle), depthOf(BodyKind::Column)) << chain;
+    EXPECT_LT(depthOf(BodyKind::Table), depthOf(BodyKind::Column)) << chain;
+  }
 }
 
 TEST(Camera, ZoomKeepsWhatIsUnderTheCursor) {
