@@ -24,7 +24,7 @@ QString columnTitle(const std::string& column) {
   if (text.startsWith(QLatin1String("T_"))) text.remove(0, 2);
   const QString unit = QLatin1Char('_') + fromCore(unitOfColumn(column));
   if (unit.size() > 1 && text.endsWith(unit)) text.chop(unit.size());
-  return text.replace(QLatin1Char('_'), QLatin1Char(' '));
+  return coreSentence(text.replace(QLatin1Char('_'), QLatin1Char(' ')));
 }
 
 QString columnValue(const std::string& column, double value) {

@@ -6,6 +6,7 @@
 #include "core/base/error.h"
 #include "core/tasks/task_options.h"
 #include "core/tasks/task_work.h"
+#include "widgets/common/demo_names.h"
 
 namespace spindrift::gui {
 namespace {
@@ -58,7 +59,7 @@ void ReviewSources::refresh() {
 
 std::vector<std::pair<std::int64_t, QString>> ReviewSources::campaigns() const {
   std::vector<std::pair<std::int64_t, QString>> out;
-  for (const CampaignRecord& record : session_.campaigns()) out.emplace_back(record.id, QString::fromStdString(record.name));
+  for (const CampaignRecord& record : session_.campaigns()) out.emplace_back(record.id, shownName(record.name));
   return out;
 }
 
@@ -78,7 +79,7 @@ std::shared_ptr<const ReviewSource> ReviewSources::source(std::int64_t id) {
     }
     source->id = id;
     source->fit = chosen<NineParameterChoice>(*session_.session(), id).options();
-    source->name = QString::fromStdString(source->campaign->name);
+    source->name = shownName(source->campaign->name);
     if (source->observations) {
       source->states = source->observations->states();
       source->angles_deg = tableAngles(*source->observations);

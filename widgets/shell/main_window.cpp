@@ -36,6 +36,7 @@
 #include "core/tasks/task_options.h"
 #include "core/workflows/log_campaign.h"
 #include "widgets/common/core_sentence.h"
+#include "widgets/common/demo_names.h"
 #include "widgets/common/parts.h"
 #include "widgets/common/preferences.h"
 #include "widgets/common/question.h"
@@ -433,7 +434,7 @@ void MainWindow::refreshTitle() {
 void MainWindow::refreshCampaigns() {
   campaign_->clear();
   for (const CampaignRecord& record : session_.campaigns()) {
-    campaign_->addItem(QString::fromStdString(record.name), QVariant::fromValue<qlonglong>(record.id));
+    campaign_->addItem(shownName(record.name), QVariant::fromValue<qlonglong>(record.id));
     if (record.id == session_.campaignId()) campaign_->setCurrentIndex(campaign_->count() - 1);
   }
 }
@@ -523,7 +524,7 @@ void MainWindow::verifyFiles() {
         const FileCheck check = session_.takeFiles(record.id, files);
         if (!check.same())
           tell(tr("Files of the campaign %1 have changed since its results were calculated: %2.")
-                   .arg(QString::fromStdString(record.name), QString::fromStdString(check.sentence())));
+                   .arg(shownName(record.name), QString::fromStdString(check.sentence())));
       }
     };
   };

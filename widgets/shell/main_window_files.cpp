@@ -15,6 +15,7 @@
 #include <QStandardPaths>
 
 #include "core/base/error.h"
+#include "widgets/common/demo_names.h"
 #include "widgets/common/preferences.h"
 #include "widgets/common/report_files.h"
 #include "widgets/export/print.h"
@@ -199,7 +200,7 @@ void MainWindow::printPage(QPrinter& printer) {
   if (picture.width() > picture.height()) printer.setPageOrientation(QPageLayout::Landscape);
   printPicture(
       printer, picture,
-      tr("%1 · %2 · %3").arg(session_.name(), fromCore(session_.campaign()->name), stepTitle(workflow_.current())));
+      tr("%1 · %2 · %3").arg(session_.name(), shownName(session_.campaign()->name), stepTitle(workflow_.current())));
 }
 
 void MainWindow::printReportOn(QPrinter& printer) {

@@ -24,6 +24,7 @@
 #include "core/workflows/fit_campaign.h"
 #include "widgets/commands/commands.h"
 #include "widgets/common/core_sentence.h"
+#include "widgets/common/demo_names.h"
 #include "widgets/common/editor_table.h"
 #include "widgets/common/parts.h"
 #include "widgets/common/wrap_layout.h"
@@ -251,7 +252,7 @@ void MachinePage::refresh() {
   draft_.shown(typed());
   view_->setMachine(machine);
   view_->setPoints(std::move(shown));
-  view_->setCaption(QString::fromStdString(machine.name));
+  view_->setCaption(shownName(machine.name));
   apply_->setEnabled(draft.is_object());
   discard_->setEnabled(draft.is_object() || of_another);
   original_->setVisible(session().machineEdited());

@@ -18,6 +18,7 @@
 #include "core/tasks/task_options.h"
 #include "core/workflows/evaluate_campaign.h"
 #include "widgets/common/core_sentence.h"
+#include "widgets/common/demo_names.h"
 #include "widgets/common/parts.h"
 #include "widgets/common/quantity_box.h"
 #include "widgets/common/words.h"
@@ -212,7 +213,7 @@ void VerifyPage::fillChoices() {
   after_->clear();
   after_->addItem(tr("this campaign, while compensating"), nameOf(session().campaign()->folder));
   for (const CampaignRecord& record : session().campaigns()) {
-    if (record.id != session().campaignId()) after_->addItem(fromCore(record.name), nameOf(record.folder));
+    if (record.id != session().campaignId()) after_->addItem(shownName(record.name), nameOf(record.folder));
   }
   if (!chosen.isEmpty() && after_->findData(chosen) < 0) after_->addItem(QFileInfo(chosen).fileName(), chosen);
   after_->setCurrentIndex(chosen.isEmpty() ? -1 : after_->findData(chosen));
