@@ -630,16 +630,72 @@ void Segments::setCurrent(int index) {
   buttons_[static_cast<std::size_t>(index)]->setChecked(true);
 }
 
+namespace {
+
+/// Two areas side by side, and below one another where the width is not enough for both: a page beside the help, or on
+/// a small screen, gets longer instead of being cut.
+class ReflowingSplitter : public QSplitter {
+ public:
+  ReflowingSplitter(QWidget* parent, QList<int> parts) : QSplitter(Qt::Horizontal, parent), parts_(std::move(parts)) {}
+  [[nodiscard]] QSize minimumSizeHint() const override {
+    const QSize least = QSplitter::minimumSizeHint();
+    return {std::min(least.width(), widthBelow()), least.height()};
+  }
+
+ protected:
+  void resizeEvent(QResizeEvent* event) override {
+    QSplitter::resizeEvent(event);
+    reflow();
+  }
+  bool event(QEvent* event) override {
+    const bool handled = QSplitter::event(event);
+    if (event->type() == QEvent::LayoutRequest) reflow();
+    return handled;
+  }
+
+ private:
+  [[nodiscard]] int leastWidth(int i) const {
+    const QWidget* area = widget(i);
+    if (area->isHidden()) return 0;
+    return std::max(area->minimumWidth(), area->minimumSizeHint().width());
+  }
+  /// What the areas need below one another.
+  [[nodiscard]] int widthBelow() const {
+    int width = 0;
+    for (int i = 0; i < count(); ++i) width = std::max(width, leastWidth(i));
+    return width;
+  }
+  [[nodiscard]] int widthBeside() const {
+    int width = 0;
+    for (int i = 0; i < count(); ++i) {
+      if (leastWidth(i) > 0) width += leastWidth(i) + (width > 0 ? handleWidth() : 0);
+    }
+    return width;
+  }
+  void reflow() {
+    const Qt::Orientation wanted = width() < widthBeside() ? Qt::Vertical : Qt::Horizontal;
+    if (wanted == orientation()) return;
+    setOrientation(wanted);
+    setSizes(parts_);
+  }
+
+  QList<int> parts_;
+};
+
+}  // namespace
+
 QSplitter* makeSplitter(QWidget* parent, QWidget* first, QWidget* second, int first_part, int second_part,
                         Qt::Orientation orientation) {
-  auto* splitter = new QSplitter(orientation, parent);
+  const QList<int> parts{first_part * 100, second_part * 100};
+  auto* splitter =
+      orientation == Qt::Horizontal ? new ReflowingSplitter(parent, parts) : new QSplitter(orientation, parent);
   splitter->setChildrenCollapsible(false);
   splitter->setHandleWidth(12);
   splitter->addWidget(first);
   splitter->addWidget(second);
   splitter->setStretchFactor(0, first_part);
   splitter->setStretchFactor(1, second_part);
-  splitter->setSizes({first_part * 100, second_part * 100});
+  splitter->setSizes(parts);
   return splitter;
 }
 

@@ -883,11 +883,13 @@ void MainWindow::closeEvent(QCloseEvent* event) {
   for (const auto& [entry, page] : pages_) {
     if (page == nullptr) continue;
     for (const QSplitter* splitter : page->findChildren<QSplitter*>()) {
+      const QString key = splitter->property(borders_key).toString();
+      // Below one another for want of width: these are heights.
+      if (key.contains(QStringLiteral("/h-")) != (splitter->orientation() == Qt::Horizontal)) continue;
       QVariantList sizes;
       for (const int size : splitter->sizes()) sizes << size;
       // What was never shown has no sizes that anybody chose.
-      if (!sizes.isEmpty() && !sizes.contains(QVariant(0)))
-        QSettings().setValue(splitter->property(borders_key).toString(), sizes);
+      if (!sizes.isEmpty() && !sizes.contains(QVariant(0))) QSettings().setValue(key, sizes);
     }
   }
   QSettings().setValue(QStringLiteral("window"), saveGeometry());
