@@ -15,6 +15,7 @@
 #include "core/workflows/instrument_checks.h"
 #include "widgets/commands/commands.h"
 #include "widgets/common/core_sentence.h"
+#include "widgets/common/folded_callout.h"
 #include "widgets/common/parts.h"
 #include "widgets/models/rows_model.h"
 #include "widgets/panels/capture/machine_state_line.h"
@@ -257,7 +258,8 @@ void WarmUpPage::refresh() {
   std::optional<WarmUpResult> judged;
   // What the step says, in the list of steps and on the command line.
   const StepStatus& status = context().workflow.status(StepId::WarmUp);
-  callout()->show(status.state == StepState::NotStarted ? Tone::Attention : stateTone(status.state), status.sentence);
+  showFolded(*callout(), status.state == StepState::NotStarted ? Tone::Attention : stateTone(status.state),
+             status.sentence);
   if (const StoredResult* stored = session().latest(warm_up_task)) {
     try {
       judged = warmUpFrom(stored->payload);
