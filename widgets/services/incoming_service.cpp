@@ -145,6 +145,19 @@ QImage IncomingService::thumbnail(const std::string& name) const {
   return found == thumbnails_.end() ? QImage() : found->second;
 }
 
+QString IncomingService::checkedOnArrival(int listed) {
+  const std::vector<IncomingItem>& seen = items();
+  const auto accepted = std::count_if(seen.begin(), seen.end(),
+                                      [](const IncomingItem& item) { return item.state == IncomingState::Accepted; });
+  if (accepted == 0) return {};
+  QString text = tr("%n of %1 captures were checked as they arrived and accepted.", nullptr, static_cast<int>(accepted))
+                     .arg(listed);
+  const int again = static_cast<int>(retakes().size());
+  if (again > 0) text += QLatin1Char(' ') + tr("%n are to be taken again.", nullptr, again);
+  return text + QLatin1Char(' ') +
+         tr("Check them all once they are complete: that compares them with one another too.");
+}
+
 QStringList IncomingService::retakes() {
   QStringList sentences;
   for (const CaptureIntake::Retake& retake : intake_.retakes(done())) {

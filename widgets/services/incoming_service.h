@@ -40,6 +40,9 @@ class IncomingService : public QObject {
   [[nodiscard]] QImage thumbnail(const std::string& name) const;
   /// Sentences of what is to be taken again now; what has been taken again since is not among them.
   [[nodiscard]] QStringList retakes();
+  /// What is known of captures before they are checked together: how many of `listed` were checked and accepted as they
+  /// arrived, and how many are to be taken again. Empty where nothing was accepted.
+  [[nodiscard]] QString checkedOnArrival(int listed);
   /// Touches as they come in; null while none came.
   [[nodiscard]] const TouchFeed* touches() const { return intake_.touches(); }
   /// A picture of a camera, checked and taken over like a file.

@@ -24,6 +24,7 @@
 #include "widgets/models/rows_model.h"
 #include "widgets/panels/capture/capture_tabs.h"
 #include "widgets/panels/common/exclude_items.h"
+#include "widgets/services/incoming_service.h"
 #include "widgets/theme/numbers.h"
 
 namespace spindrift::gui {
@@ -188,9 +189,11 @@ void FiducialCapturePage::refresh() {
     if (captures_.empty()) {
       callout()->show(Tone::Attention, tr("The campaign lists no captures yet."));
     } else if (unchecked == static_cast<std::ptrdiff_t>(captures_.size())) {
-      callout()->show(Tone::Accent, tr("%n captures are there and none is checked yet. Checking decodes every image "
-                                       "and says which to take again.",
-                                       nullptr, static_cast<int>(captures_.size())));
+      const QString arrived = IncomingService::of(session()).checkedOnArrival(static_cast<int>(captures_.size()));
+      callout()->show(Tone::Accent, !arrived.isEmpty() ? arrived
+                                                       : tr("%n captures are there and none is checked yet. Checking "
+                                                            "decodes every image and says which to take again.",
+                                                            nullptr, static_cast<int>(captures_.size())));
     } else if (const ResultState check = session().state("check"); check.there && !check.current) {
       callout()->show(Tone::Outdated, tr("Changed since: %1. Check the captures again.").arg(check.changed));
     } else if (!bad.empty()) {

@@ -25,6 +25,7 @@
 #include "widgets/panels/scanning/profile_series.h"
 #include "widgets/panels/scanning/scan_mask_bar.h"
 #include "widgets/plots/plot.h"
+#include "widgets/services/incoming_service.h"
 #include "widgets/services/scan_results.h"
 #include "widgets/theme/numbers.h"
 #include "widgets/theme/shown_units.h"
@@ -164,10 +165,12 @@ void ScanCapturePage::refresh() {
   if (!results_.failure().isEmpty()) {
     callout()->show(Tone::Bad, results_.failure());
   } else if (checks_.empty()) {
-    callout()->show(
-        Tone::Accent,
-        tr("%n scans are there and none is checked yet. Checking reads every cloud and says which to take again.",
-           nullptr, static_cast<int>(captures.size())));
+    const QString arrived = IncomingService::of(session()).checkedOnArrival(static_cast<int>(captures.size()));
+    callout()->show(Tone::Accent, !arrived.isEmpty()
+                                      ? arrived
+                                      : tr("%n scans are there and none is checked yet. Checking reads every cloud and "
+                                           "says which to take again.",
+                                           nullptr, static_cast<int>(captures.size())));
   } else if (!session().state("check").current) {
     callout()->show(Tone::Outdated,
                     tr("Changed since: %1. Check the scans again.").arg(session().state("check").changed));
