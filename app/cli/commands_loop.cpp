@@ -13,6 +13,7 @@
 #include "core/base/atomic_file.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/discrepancy/percent_text.h"
 #include "core/workflows/closed_loop.h"
 #include "core/workflows/closed_loop_demo.h"
 #include "core/workflows/machine_beside_control.h"
@@ -61,8 +62,8 @@ std::string answer(const std::stop_token& stop) {
 std::vector<std::string> chosenByOperator(const DiscrepancyResult& found, const std::stop_token& stop) {
   std::vector<std::string> ids;
   for (const FoundEffect& effect : found.effects) {
-    std::cerr << fmt::format("\nThe simulation lacks {} (confidence {:.2f}{}). Type yes to add it: ", effect.id,
-                             effect.confidence,
+    std::cerr << fmt::format("\nThe simulation lacks {} (confidence {}{}). Type yes to add it: ", effect.id,
+                             percentText(effect.confidence),
                              effect.rivals.empty() ? "" : ", not to be told from " + joinedList(effect.rivals));
     if (answer(stop) == "yes") ids.push_back(effect.id);
   }

@@ -8,6 +8,7 @@
 #include "core/discrepancy/discrepancy.h"
 #include "core/discrepancy/effect_model.h"
 #include "core/discrepancy/effect_titles.h"
+#include "core/discrepancy/percent_text.h"
 #include "core/machine/driver_words.h"
 
 namespace spindrift {
@@ -162,8 +163,9 @@ std::string DiscrepancyResult::summary() const {
   for (const FoundEffect& e : effects) {
     text += fmt::format("  {}  {}\n    {}\n", e.id, e.title.empty() ? effectTitle(e.id) : e.title,
                         driversInWords(e.drivers));
-    text += fmt::format("    confidence {:.2f}, gain in BIC {:.0f}, held-out rms {:.2f} → {:.2f} {}\n", e.confidence,
-                        printed(e.delta_bic), e.heldout_rms_before_um, e.heldout_rms_after_um, unit);
+    text += fmt::format("    confidence {}, gain in BIC {:.0f}, held-out rms {:.2f} → {:.2f} {}\n",
+                        percentText(e.confidence), printed(e.delta_bic), e.heldout_rms_before_um,
+                        e.heldout_rms_after_um, unit);
     if (!e.rivals.empty()) text += fmt::format("    cannot be distinguished from {}\n", joinedList(e.rivals, "or"));
     for (const FittedParameter& p : e.parameters) {
       text += fmt::format("    {}: {}\n", parameterTitle(p.name), withUncertainty(p.value, p.standard_uncertainty, ""));

@@ -11,6 +11,7 @@
 #include "core/base/text.h"
 #include "core/base/units.h"
 #include "core/discrepancy/effect_titles.h"
+#include "core/discrepancy/percent_text.h"
 #include "core/machine/driver_words.h"
 #include "core/machine/interpolated_field.h"
 #include "core/reporting/discrepancy_figures.h"
@@ -126,10 +127,10 @@ void addEffect(Report& document, const FoundEffect& effect, bool user_adds, bool
                                                                                 : " (proposed)"));
   document.paragraph(effect.physics);
   document.paragraph(fmt::format(
-      "Driven by {}. Probability that {} {:.2f}; gain in BIC {:.0f}; rms on {} {:.2f} µm before, {:.2f} µm "
+      "Driven by {}. Probability that {} {}; gain in BIC {:.0f}; rms on {} {:.2f} µm before, {:.2f} µm "
       "after.",
       driversInWords(effect.drivers), effect.rivals.empty() ? "the name is right" : "it or one of its rivals is right",
-      effect.confidence, effect.delta_bic, held_out ? "held-out data" : "blocks left out in turn",
+      percentText(effect.confidence), effect.delta_bic, held_out ? "held-out data" : "blocks left out in turn",
       effect.heldout_rms_before_um, effect.heldout_rms_after_um));
   if (!effect.rivals.empty()) {
     document.callout(CalloutKind::Attention, withEffectTitles(fmt::format("These data cannot tell it from {}.",
@@ -163,11 +164,12 @@ void addCandidates(Report& document, const DiscrepancyReportData& data) {
         if (candidate.rejected) answer = "rejected by hand";
         break;
     }
-    rows.push_back({withEffectTitles(candidate.id), percentText(candidate.probability), answer});
+    rows.push_back({withEffectTitles(candidate.id), percentText(statedProbability(candidate, data.effects)), answer});
   }
-  document.table({"Effect", "Probability", "Answer"}, rows,
-                 "The most probable effects: probability that each is among what is missing, before rivals and the "
-                 "remainder are weighed");
+  document.table(
+      {"Effect", "Probability", "Answer"}, rows,
+      "The most probable effects: of what is named its confidence, of the others the probability that each is "
+      "among what is missing, before rivals and the remainder are weighed");
 }
 
 /// One figure for displacements and one for rotations, and a table of the states.
@@ -448,11 +450,10 @@ CandidateRole candidateRole(const std::string& id, const std::vector<FoundEffect
   return role;
 }
 
-std::string percentText(double probability) {
-  if (!std::isfinite(probability)) return "\u2013";
-  if (probability < 0.005) return "< 1 %";
-  if (probability > 0.995) return "> 99 %";
-  return fmt::format("{:.0f} %", 100.0 * probability);
+double statedProbability(const EffectCandidate& candidate, const std::vector<FoundEffect>& effects) {
+  const auto named =
+      std::find_if(effects.begin(), effects.end(), [&](const FoundEffect& e) { return e.id == candidate.id; });
+  return named == effects.end() ? candidate.probability : named->confidence;
 }
 
 bool takenOutAgain(const DiscrepancyStep& step, const std::vector<FoundEffect>& effects) {

@@ -47,8 +47,9 @@ struct OutlyingObservation {
 enum class CandidateRole { Named, Rival, Container, None };
 [[nodiscard]] CandidateRole candidateRole(const std::string& id, const std::vector<FoundEffect>& effects);
 
-/// "97 %", "< 1 %", "> 99 %" of a probability in 0 ... 1.
-[[nodiscard]] std::string percentText(double probability);
+/// The one number that is stated of a candidate: of what was named its confidence, of every other the probability that
+/// it is among what is missing.
+[[nodiscard]] double statedProbability(const EffectCandidate& candidate, const std::vector<FoundEffect>& effects);
 
 /// 2 ln of the odds from which on a remainder is said to be there: "very strong" (Kass and Raftery 1995).
 inline constexpr double clear_evidence = 10.0;

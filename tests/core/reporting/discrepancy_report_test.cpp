@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/reporting/discrepancy_report.h"
 
+#include "core/discrepancy/percent_text.h"
 #include "core/reporting/discrepancy_figures.h"
 
 #include <gmock/gmock.h>
@@ -120,6 +121,7 @@ TEST(DiscrepancyReport, WhatWasAddedAndTakenOutAgainIsNotSaidToBeIn) {
 TEST(DiscrepancyReport, TellsCandidatesNoiseShiftsOutliersAndRemainder) {
   DiscrepancyReportData d = data();
   d.effects[0].rivals = {"spindle.drift.y"};
+  d.effects[0].confidence = 0.93;
   d.candidates = {{"ball_screw.expansion.y", 0.71}, {"spindle.drift.y", 0.26}, {"head.tilt.a", 0.001}};
   d.noise = {{Component::EX, 1.32, 0.05, 0.0, 0.0, 0.0}, {Component::EY, 0.87, 0.04, 0.8, 0.4, 7200.0}};
   d.shifts = {{"M0", Component::EY, 0.0, -0.52, 0.21}, {"M1", Component::EY, 3600.0, 1.13, 0.21}};
@@ -131,7 +133,9 @@ TEST(DiscrepancyReport, TellsCandidatesNoiseShiftsOutliersAndRemainder) {
   d.clock_offset_uncertainty_s = 40.0;
   for (DiscrepancyReportRow& row : d.rows) row.remaining = row.component == Component::EY ? 0.8 : 0.0;
   const std::string html = htmlOf(discrepancyDocument("c", d, std::nullopt));
-  EXPECT_THAT(html, HasSubstr("71 %"));
+  EXPECT_THAT(html, HasSubstr(">93 %<")) << "the one number of what is named";
+  EXPECT_THAT(html, Not(HasSubstr("71 %")));
+  EXPECT_THAT(html, HasSubstr("26 %"));
   EXPECT_THAT(html, HasSubstr("&lt; 1 %"));
   EXPECT_THAT(html, HasSubstr("rival of what is named"));
   EXPECT_THAT(html, HasSubstr("What was taken as noise"));
@@ -145,6 +149,22 @@ TEST(DiscrepancyReport, TellsCandidatesNoiseShiftsOutliersAndRemainder) {
   EXPECT_THAT(html, Not(HasSubstr("nan")));
   // Nothing of it is said where nothing of it is known.
   EXPECT_THAT(htmlOf(discrepancyDocument("c", data(), std::nullopt)), Not(HasSubstr("What was taken as noise")));
+}
+
+// The text above and the table below speak of the same effect: one number, written in one way.
+TEST(DiscrepancyReport, OneNumberSaysHowSureTheNameIs) {
+  DiscrepancyReportData d = data();
+  ASSERT_FALSE(d.effects.empty());
+  d.effects[0].confidence = 0.98;
+  d.candidates = {{d.effects[0].id, 0.9999}, {"head.tilt.a", 0.3}};
+  EXPECT_EQ(statedProbability(d.candidates[0], d.effects), 0.98);
+  EXPECT_EQ(statedProbability(d.candidates[1], d.effects), 0.3);
+  const std::string html = htmlOf(discrepancyDocument("c", d, std::nullopt));
+  EXPECT_THAT(html, HasSubstr("Probability that the name is right 98 %;"));
+  EXPECT_THAT(html, HasSubstr(">98 %<"));
+  EXPECT_THAT(html, HasSubstr("30 %"));
+  EXPECT_THAT(html, Not(HasSubstr("99 %")));
+  EXPECT_THAT(html, Not(HasSubstr("0.98")));
 }
 
 TEST(DiscrepancyReport, ProbabilitiesInPercentNeverSayCertain) {

@@ -125,7 +125,7 @@ Sentence verdictOf(const DiscrepancyStory& story) {
     DiscrepancyGap gap = *story.proposed;
     const auto missing =
         std::count_if(story.effects.begin(), story.effects.end(), [](const auto& e) { return !e.forced; });
-    QString sure = decimalText(next->confidence, 'f', 2);
+    QString sure = percentOf(next->confidence);
     if (!next->rivals.empty()) sure = DiscrepancyPage::tr("%1 that it is one of these").arg(sure);
     const QString gain = missing > 1 ? DiscrepancyPage::tr(
                                            "Confidence %1 for the first. Adding all of them takes the "

@@ -13,6 +13,7 @@
 
 #include "core/base/text.h"
 #include "core/discrepancy/effect_titles.h"
+#include "core/discrepancy/percent_text.h"
 #include "core/machine/driver_words.h"
 #include "core/reporting/discrepancy_report.h"
 #include "widgets/common/core_sentence.h"

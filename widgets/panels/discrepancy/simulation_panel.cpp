@@ -381,7 +381,7 @@ void SimulationPanel::showFound() {
     QString words = sentenceStart(driverWords(e.drivers));
     if (!words.isEmpty()) words += QLatin1Char('.');
     if (std::isfinite(e.confidence))
-      words += QLatin1Char(' ') + tr("Confidence %1.").arg(decimalText(e.confidence, 'f', 2));
+      words += QLatin1Char(' ') + tr("Confidence %1.").arg(percentOf(e.confidence));
     if (!e.rivals.empty())
       words += QLatin1Char(' ') + tr("These data cannot distinguish it from %1.").arg(effectTitles(e.rivals, tr("or")));
     html +=

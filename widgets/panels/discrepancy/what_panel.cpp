@@ -173,9 +173,13 @@ void WhatPanel::fillCandidates() {
     row.id = QString::fromStdString(c.id);
     Cell name{sentenceStart(effectTitle(c.id))};
     name.tip = row.id;
-    Cell probability = rightCell(percentOf(c.probability));
-    probability.picture = probabilityBar(c.probability, devicePixelRatioF());
-    probability.tip = tr("Probability that it is among what is missing, before rivals and the remainder are weighed");
+    const double stated = statedProbability(c, story_->effects);
+    const bool named = candidateRole(c.id, story_->effects) == CandidateRole::Named;
+    Cell probability = rightCell(percentOf(stated));
+    probability.picture = probabilityBar(stated, devicePixelRatioF());
+    probability.tip = named ? tr("Confidence that it is right")
+                            : tr("Probability that it is among what is missing, before rivals and the remainder are "
+                                 "weighed");
     Cell answer{QStringLiteral("–")};
     switch (candidateRole(c.id, story_->effects)) {
       case CandidateRole::Named:
@@ -243,7 +247,7 @@ void WhatPanel::showEffect() {
   physics_title_->show();
   const bool rival = id != e->id;
   detail_->setTitle(sentenceStart(effectTitle(id)));
-  confidence_->set(decimalText(e->confidence, 'f', 2),
+  confidence_->set(percentOf(e->confidence),
                    e->rivals.empty() ? tr("that the named effect is the right one") : tr("that it is one of these"));
   gain_->set(decimalText(e->delta_bic, 'f', 0), tr("above 10 is very strong"));
   held_out_->set(tr("%1 → %2").arg(sizeText(e->heldout_rms_before_um, {}),
