@@ -296,8 +296,8 @@ QString SimulationPanel::whyNotPut() const {
                : tr("Tick what is to be put in, in the column Put in.");
   }
   if (!parameters_->ticksAreTheUsers()) return {};
-  return fromCore(whyNotTogether(ticked, opened_.parameters, opened_.windows,
-                                 story_ != nullptr ? story_->twins : decltype(story_->twins)()));
+  return told(whyNotTogether(ticked, opened_.parameters, opened_.windows,
+                             story_ != nullptr ? story_->twins : decltype(story_->twins)()));
 }
 
 void SimulationPanel::putInto(const QString& folder) {
@@ -348,9 +348,23 @@ void SimulationPanel::putInto(const QString& folder) {
 
 QString SimulationPanel::titleOf(const FoundEffect& effect) const {
   for (const SimulatorParameter& p : opened_.parameters)
-    if (p.id() == effect.id)
-      return p.what == p.name ? fromCore(p.name) : tr("%1 (%2)").arg(coreSentence(p.what), fromCore(p.name));
+    if (p.id() == effect.id) return p.what.empty() ? fromCore(p.name) : coreSentence(p.what);
   return !effect.title.empty() ? fromCore(effect.title) : effectTitle(effect.id);
+}
+
+QString SimulationPanel::told(std::string sentence) const {
+  std::vector<const SimulatorParameter*> parameters;
+  for (const SimulatorParameter& p : opened_.parameters)
+    if (!p.what.empty() && p.what != p.name) parameters.push_back(&p);
+  // A name may begin another.
+  std::sort(parameters.begin(), parameters.end(),
+            [](const auto* a, const auto* b) { return a->name.size() > b->name.size(); });
+  for (const SimulatorParameter* p : parameters)
+    for (std::size_t at = sentence.find(p->name); at != std::string::npos; at = sentence.find(p->name, at)) {
+      sentence.replace(at, p->name.size(), p->what);
+      at += p->what.size();
+    }
+  return sentenceStart(titledSentence(sentence));
 }
 
 void SimulationPanel::showHead() {
@@ -380,15 +394,13 @@ void SimulationPanel::showFound() {
   for (const FoundEffect& e : story_->effects) {
     QString words = sentenceStart(driverWords(e.drivers));
     if (!words.isEmpty()) words += QLatin1Char('.');
-    if (std::isfinite(e.confidence))
-      words += QLatin1Char(' ') + tr("Confidence %1.").arg(percentOf(e.confidence));
+    if (std::isfinite(e.confidence)) words += QLatin1Char(' ') + tr("Confidence %1.").arg(percentOf(e.confidence));
     if (!e.rivals.empty())
       words += QLatin1Char(' ') + tr("These data cannot distinguish it from %1.").arg(effectTitles(e.rivals, tr("or")));
     html +=
         QStringLiteral("<p><b>%1</b><br>%2</p>").arg(sentenceStart(titleOf(e)).toHtmlEscaped(), words.toHtmlEscaped());
   }
-  if (story_->effects.empty())
-    html += QStringLiteral("<p>%1</p>").arg(sentenceStart(titledSentence(story_->message)).toHtmlEscaped());
+  if (story_->effects.empty()) html += QStringLiteral("<p>%1</p>").arg(told(story_->message).toHtmlEscaped());
   std::vector<std::string> warnings;
   if (const SimulationUpdate* done = update()) {
     warnings = done->warnings;
@@ -401,7 +413,7 @@ void SimulationPanel::showFound() {
   } else {
     warnings = story_->warnings;
   }
-  for (const std::string& w : warnings) html += QStringLiteral("<p>%1</p>").arg(titledSentence(w).toHtmlEscaped());
+  for (const std::string& w : warnings) html += QStringLiteral("<p>%1</p>").arg(told(w).toHtmlEscaped());
   found_->setText(onScreen(html));
 }
 
@@ -464,7 +476,7 @@ void SimulationPanel::showCallout() {
     callout_->show(done->status != FitStatus::Converged ? Tone::Bad
                    : done->as_well_as_fitted_term       ? Tone::Good
                                                         : Tone::Attention,
-                   titledSentence(done->message));
+                   told(done->message));
     return;
   }
   if (const QString why = whyNotPut(); !why.isEmpty() && parameters_->ticksAreTheUsers()) {
@@ -472,7 +484,7 @@ void SimulationPanel::showCallout() {
   } else if (story_->verdict == DiscrepancyVerdict::None) {
     callout_->show(Tone::Good, tr("Measured and the simulator's own run agree within the noise."));
   } else if (story_->effects.empty()) {
-    callout_->show(Tone::Attention, sentenceStart(titledSentence(story_->message)));
+    callout_->show(Tone::Attention, told(story_->message));
   } else {
     callout_->set(Tone::Neutral, {});  // the card tells it
   }

@@ -100,6 +100,8 @@ class SimulationPanel : public QWidget {
   void updateButtons();
   [[nodiscard]] bool current() const;
   [[nodiscard]] QString titleOf(const FoundEffect& effect) const;
+  /// A sentence of core with what a parameter is in place of its name in the file.
+  [[nodiscard]] QString told(std::string sentence) const;
 
   PageContext context_;
   Card* head_;
