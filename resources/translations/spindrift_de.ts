@@ -114,6 +114,53 @@
     </message>
 </context>
 <context>
+    <name>DemoNames</name>
+    <message>
+        <source>coded fiducials, cold and after two hours of cutting</source>
+        <translation>codierte Messmarken, kalt und nach zwei Stunden Zerspanung</translation>
+    </message>
+    <message>
+        <source>hole bar, warm-up and cool-down</source>
+        <translation>Lochleiste, Erwärmung und Abkühlung</translation>
+    </message>
+    <message>
+        <source>ball artefact, spindle at 2500 rpm</source>
+        <translation>Kugelnormal, Spindel mit 2500 min⁻¹</translation>
+    </message>
+    <message>
+        <source>free-form artefacts under a laser profiler along the crossbeam</source>
+        <translation>Freiform-Prüfkörper unter dem Laser-Profilsensor entlang des Querbalkens</translation>
+    </message>
+    <message>
+        <source>vertical machining centre, simulation with a gap</source>
+        <translation>vertikales Bearbeitungszentrum, Simulation mit Lücke</translation>
+    </message>
+    <message>
+        <source>fiducials of the user&apos;s own artwork: 7 x 7 ellipses on a pitch of 455 µm</source>
+        <translation>Messmarken eigener Vorlage: 7 × 7 Ellipsen im Raster von 455 µm</translation>
+    </message>
+    <message>
+        <source>three-axis mill</source>
+        <translation>dreiachsige Fräsmaschine</translation>
+    </message>
+    <message>
+        <source>five-axis machining centre</source>
+        <translation>fünfachsiges Bearbeitungszentrum</translation>
+    </message>
+    <message>
+        <source>horizontal machining centre</source>
+        <translation>horizontales Bearbeitungszentrum</translation>
+    </message>
+    <message>
+        <source>gantry milling machine</source>
+        <translation>Portalfräsmaschine</translation>
+    </message>
+    <message>
+        <source>vertical machining centre</source>
+        <translation>vertikales Bearbeitungszentrum</translation>
+    </message>
+</context>
+<context>
     <name>Dropped</name>
     <message>
         <source>%1 cannot be opened; allowed: the folder of a session or a campaign, a log (.csv), point clouds (.pcd, .ply) and images (.jpg, .png, .tif, .bmp, .pgm).</source>
@@ -265,6 +312,17 @@
     <message>
         <source>Why is this left out? The report will say so.</source>
         <translation>Warum wird das ausgelassen? Der Bericht nennt den Grund.</translation>
+    </message>
+</context>
+<context>
+    <name>FoldedCallout</name>
+    <message>
+        <source>Less</source>
+        <translation>Weniger</translation>
+    </message>
+    <message>
+        <source>Details</source>
+        <translation>Details</translation>
     </message>
 </context>
 <context>
@@ -10073,10 +10131,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Antrieb</translation>
     </message>
     <message>
-        <source>Driven by {}. Probability that {} {:.2f}; gain in BIC {:.0f}; rms on {} {:.2f} µm before, {:.2f} µm after.</source>
-        <translation>Angetrieben von: {}. Wahrscheinlichkeit, dass {}: {:.2f}; Gewinn in BIC {:.0f}; rms an {}: {:.2f} µm vorher, {:.2f} µm nachher.</translation>
-    </message>
-    <message>
         <source>Effect</source>
         <translation>Effekt</translation>
     </message>
@@ -10431,10 +10485,6 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>The machine is not described; this report is of a log alone.</source>
         <translation>Die Maschine ist nicht beschrieben; dieser Bericht betrifft allein ein Protokoll.</translation>
-    </message>
-    <message>
-        <source>The most probable effects: probability that each is among what is missing, before rivals and the remainder are weighed</source>
-        <translation>Die wahrscheinlichsten Effekte: Wahrscheinlichkeit, dass jeder zu dem gehört, was fehlt, bevor konkurrierende Erklärungen und der Rest abgewogen sind</translation>
     </message>
     <message>
         <source>The remainder: what is smooth in time and space and neither effect nor noise; evidence: 2 ln of the odds that it is more than noise, clear from 10 on</source>
@@ -11647,6 +11697,30 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>reading the results</source>
         <translation>Ergebnisse werden gelesen</translation>
+    </message>
+    <message>
+        <source>Driven by {}. Probability that {} {}; gain in BIC {:.0f}; rms on {} {:.2f} µm before, {:.2f} µm after.</source>
+        <translation>Angetrieben von: {}. Wahrscheinlichkeit, dass {}: {}; Gewinn in BIC {:.0f}; rms an {}: {:.2f} µm vorher, {:.2f} µm nachher.</translation>
+    </message>
+    <message>
+        <source>The most probable effects: of what is named its confidence, of the others the probability that each is among what is missing, before rivals and the remainder are weighed</source>
+        <translation>Die wahrscheinlichsten Effekte: von dem, was benannt ist, die Konfidenz, von den anderen die Wahrscheinlichkeit, dass sie zu dem gehören, was fehlt, bevor konkurrierende Erklärungen und der Rest abgewogen sind</translation>
+    </message>
+    <message>
+        <source>Points at {} angles of the table have no common heat map: choose one.</source>
+        <translation>Punkte bei {} Winkeln des Tisches haben keine gemeinsame Farbkarte: einen Winkel wählen.</translation>
+    </message>
+    <message>
+        <source>The points lie on one line, so there is no heat map between them.</source>
+        <translation>Die Punkte liegen auf einer Geraden, daher gibt es zwischen ihnen keine Farbkarte.</translation>
+    </message>
+    <message>
+        <source>{} was not measured with the table at {:g}°.</source>
+        <translation>{} wurde bei Tischwinkel {:g}° nicht gemessen.</translation>
+    </message>
+    <message>
+        <source>Error parameters over the cycles, each artefact by itself, one row on the same axes; bars: one standard uncertainty</source>
+        <translation>Fehlerparameter über den Zyklen, jeder Prüfkörper für sich, eine Zeile mit gleichen Achsen; Balken: eine Standardunsicherheit</translation>
     </message>
 </context>
 <context>
@@ -15086,7 +15160,7 @@ ihrem Ordner und führen nicht hinaus.
     </message>
     <message>
         <source>Review</source>
-        <translation>Durchsicht</translation>
+        <translation>Gegenprüfung</translation>
     </message>
     <message>
         <source>SQLite: one writer at a time. Some 50 machines and a few people are what it is for.</source>
@@ -17481,8 +17555,8 @@ ihrem Ordner und führen nicht hinaus.
         <translation>Es wurde keine Datei geschrieben. %1</translation>
     </message>
     <message>
-        <source>where nothing was fitted; %1 at what was</source>
-        <translation>wo nichts angepasst wurde; %1 an Angepasstem</translation>
+        <source>on held-out data; on fitted data %1</source>
+        <translation>an zurückgehaltenen Daten; an angepassten %1</translation>
     </message>
 </context>
 <context>
@@ -20092,6 +20166,24 @@ ihrem Ordner und führen nicht hinaus.
     <message>
         <source>Pictures of the camera that cannot be stored: %1. %2</source>
         <translation>Bilder der Kamera, die nicht gespeichert werden können: %1. %2</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n of %1 captures were checked as they arrived and accepted.</source>
+        <translation>
+            <numerusform>%n von %1 Aufnahmen wurde beim Eingang geprüft und angenommen.</numerusform>
+            <numerusform>%n von %1 Aufnahmen wurden beim Eingang geprüft und angenommen.</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%n are to be taken again.</source>
+        <translation>
+            <numerusform>%n ist zu wiederholen.</numerusform>
+            <numerusform>%n sind zu wiederholen.</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Check them all once they are complete: that compares them with one another too.</source>
+        <translation>Alle prüfen, sobald sie vollständig sind: dabei werden sie auch untereinander verglichen.</translation>
     </message>
 </context>
 <context>
@@ -23992,6 +24084,22 @@ ihrem Ordner und führen nicht hinaus.
         <source>%1 is shown as it was worked out before. Changed since: %2.</source>
         <translation>%1 ist gezeigt wie zuvor berechnet. Geändert seitdem: %2.</translation>
     </message>
+    <message>
+        <source>Angle of the table</source>
+        <translation>Winkel des Tisches</translation>
+    </message>
+    <message>
+        <source>Panes, points and section show what was measured at this angle of the table.</source>
+        <translation>Felder, Punkte und Schnitt zeigen, was bei diesem Winkel des Tisches gemessen wurde.</translation>
+    </message>
+    <message>
+        <source>Table at %1°</source>
+        <translation>Tisch bei %1°</translation>
+    </message>
+    <message>
+        <source>All angles</source>
+        <translation>Alle Winkel</translation>
+    </message>
 </context>
 <context>
     <name>spindrift::gui::ReviewPane</name>
@@ -24631,10 +24739,6 @@ ihrem Ordner und führen nicht hinaus.
     <message>
         <source>put %1 into the simulation</source>
         <translation>%1 in die Simulation einsetzen</translation>
-    </message>
-    <message>
-        <source>%1 (%2)</source>
-        <translation>%1 (%2)</translation>
     </message>
     <message>
         <source>No simulator</source>
@@ -27106,6 +27210,10 @@ ihrem Ordner und führen nicht hinaus.
         <source>Verdict</source>
         <translation>Urteil</translation>
     </message>
+    <message>
+        <source>Confidence that it is right</source>
+        <translation>Konfidenz, dass die Benennung stimmt</translation>
+    </message>
 </context>
 <context>
     <name>spindrift::gui::WherePanel</name>
@@ -27322,7 +27430,7 @@ ihrem Ordner und führen nicht hinaus.
     </message>
     <message>
         <source>Review</source>
-        <translation>Durchsicht</translation>
+        <translation>Gegenprüfung</translation>
     </message>
     <message>
         <source>Report</source>

@@ -162,6 +162,23 @@
     </message>
 </context>
 <context>
+    <name>spindrift::gui::IncomingService</name>
+    <message numerus="yes">
+        <source>%n of %1 captures were checked as they arrived and accepted.</source>
+        <translation>
+            <numerusform>%n of %1 captures was checked as it arrived and accepted.</numerusform>
+            <numerusform>%n of %1 captures were checked as they arrived and accepted.</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%n are to be taken again.</source>
+        <translation>
+            <numerusform>%n is to be taken again.</numerusform>
+            <numerusform>%n are to be taken again.</numerusform>
+        </translation>
+    </message>
+</context>
+<context>
     <name>spindrift::gui::JobBar</name>
     <message numerus="yes">
         <source>%n waiting</source>
