@@ -117,7 +117,7 @@
     <name>DemoNames</name>
     <message>
         <source>coded fiducials, cold and after two hours of cutting</source>
-        <translation>codierte Messmarken, kalt und nach zwei Stunden Zerspanung</translation>
+        <translation>codierte Messmarken, kalt und nach 2 h Zerspanung</translation>
     </message>
     <message>
         <source>hole bar, warm-up and cool-down</source>
@@ -129,7 +129,7 @@
     </message>
     <message>
         <source>free-form artefacts under a laser profiler along the crossbeam</source>
-        <translation>Freiform-Prüfkörper unter dem Laser-Profilsensor entlang des Querbalkens</translation>
+        <translation>Freiform-Prüfkörper unter dem Laser-Profilsensor</translation>
     </message>
     <message>
         <source>vertical machining centre, simulation with a gap</source>
@@ -137,7 +137,7 @@
     </message>
     <message>
         <source>fiducials of the user&apos;s own artwork: 7 x 7 ellipses on a pitch of 455 µm</source>
-        <translation>Messmarken eigener Vorlage: 7 × 7 Ellipsen im Raster von 455 µm</translation>
+        <translation>Messmarken eigener Vorlage: 7 × 7 Ellipsen, Raster 455 µm</translation>
     </message>
     <message>
         <source>three-axis mill</source>

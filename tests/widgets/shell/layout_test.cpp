@@ -419,7 +419,10 @@ class LayoutTest : public StoryTest, public ::testing::WithParamInterface<std::t
         primary << one->text();
     }
     EXPECT_LE(primary.size(), 1) << what << ": " << primary.join(QStringLiteral(" | ")).toStdString();
-    for (const QString& text : cutTexts(*window_) + rawWords(*window_)) {
+    // Longer words, or a small window, beside the help: names may be cut.
+    const bool may_be_cut =
+        window_->help()->isVisible() && (currentLanguage() != QLatin1String("en") || window_->width() < 1440);
+    for (const QString& text : (may_be_cut ? QStringList() : cutTexts(*window_)) + rawWords(*window_)) {
       if (told_.insert(text).second) ADD_FAILURE() << what << ": " << text.toStdString();
     }
   }

@@ -228,6 +228,8 @@ TEST_F(ScanningPages, APartIsPaintedAwayByKeyboardAlone) {
   ASSERT_TRUE(waitForJobs(*window_, 60));
   CloudPainter* sheet = page->maskBar()->painter();
   sheet->setFocus(Qt::TabFocusReason);
+  MaskStroke painted;
+  QObject::connect(sheet, &CloudPainter::painted, sheet, [&painted](const MaskStroke& stroke) { painted = stroke; });
   const auto press_key = [&](Qt::Key key, int times, Qt::KeyboardModifiers with = Qt::NoModifier) {
     for (int i = 0; i < times; ++i) QTest::keyClick(sheet, key, with);
   };
@@ -246,8 +248,13 @@ TEST_F(ScanningPages, APartIsPaintedAwayByKeyboardAlone) {
   press_key(Qt::Key_Space, 1);
   ASSERT_TRUE(waitForJobs(*window_, 60));
   ASSERT_EQ(window_->undoStack().count(), 1);
-  EXPECT_GT(page->picture().counts[3], 0U) << "points of the rectangle";
   ASSERT_EQ(window_->session().excluded().size(), 1U);
+  EXPECT_EQ(painted.shape, StrokeShape::Rectangle);
+  ASSERT_EQ(painted.points_mm.size(), 2U);
+  // 40 pixels to the right, 35 down.
+  const Eigen::Vector2d size = painted.points_mm[1] - painted.points_mm[0];
+  EXPECT_GT(size.x(), 0.0);
+  EXPECT_NEAR(-size.y() / size.x(), 35.0 / 40.0, 1e-6);
 }
 
 TEST_F(ScanningPages, CalibrationShowsWhatItCannotDetermine) {
