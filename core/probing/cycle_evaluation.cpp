@@ -15,6 +15,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "core/base/printed_number.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
 #include "core/math/statistics.h"
@@ -231,11 +232,11 @@ class Assembler {
                   "{} stands up to {:.1f} mm beside where the machine file has it (clamped {:.1f} mm beside its "
                   "place and turned by {:.2f}°, centre of the rotary axis {:.1f} mm off): its features were "
                   "found there, but its place in the machine file enters the evaluation.",
-                  artefact_.id, place_.largest_mm, place_.on_table_mm.norm(), place_.turn_rad * deg_per_rad,
+                  artefact_.id, place_.largest_mm, place_.on_table_mm.norm(), printed(place_.turn_rad * deg_per_rad),
                   place_.centre_offset_mm.norm())
             : fmt::format("{} stands up to {:.1f} mm beside where the machine file has it (turned by {:.2f}°): its "
                           "features were found there, but its place in the machine file enters the evaluation.",
-                          artefact_.id, place_.largest_mm, place_.turn_rad * deg_per_rad));
+                          artefact_.id, place_.largest_mm, printed(place_.turn_rad * deg_per_rad)));
   }
 
   /// How far beside the holes most surface touches are made, mm; with one or two cycles there is no habit to go by.
@@ -294,6 +295,7 @@ class Assembler {
     }
     reach = std::max(reach, usualReach());
     const double tolerance = std::max(assembly_.misplaced_mm, 0.05);
+    std::map<int, std::vector<double>> away;  // by setting: how far its misplaced touches lie from it
     for (const Group& g : groups_) {
       const auto& [feature, stylus, c_deg] = settings_[static_cast<std::size_t>(g.setting)];
       for (const std::size_t i : g.touches) {
@@ -317,7 +319,10 @@ class Assembler {
           d -= assembly_.axis * assembly_.axis.dot(d);
           // Across the touched direction the aim may be off by the play in the hole.
           const double limit = surface ? std::max(reach, 2.0) + tolerance : tolerance + 0.5 * radiusOf(g.setting);
-          if (d.norm() > limit) reason = fmt::format("it is {:.3f} mm away from {}", d.norm(), feature);
+          if (d.norm() > limit) {
+            reason = fmt::format("it is {:.3f} mm away from {}", d.norm(), feature);
+            away[g.setting].push_back(d.norm());
+          }
         }
         if (reason.empty()) continue;
         const std::string other = nearest(t, g.setting, c_deg, usual);
@@ -325,6 +330,46 @@ class Assembler {
           reason += fmt::format("; it lies on {} (wrong or swapped feature?)", other);
         result_.rejected.push_back({i, reason + "; left out"});
       }
+    }
+    tellWhatNeverFits(away);
+  }
+
+  /// A feature, or a table angle, at which the touches of every cycle are misplaced: the machine file or the list is
+  /// wrong of it. Where most do not fit, the list as a whole is (evaluate_touches.cpp).
+  void tellWhatNeverFits(const std::map<int, std::vector<double>>& away) {
+    std::vector<std::size_t> touches(settings_.size(), 0);
+    for (const Group& g : groups_) touches[static_cast<std::size_t>(g.setting)] += g.touches.size();
+    struct Whole {
+      bool fits = false;
+      std::vector<double> away_mm;
+    };
+    std::map<double, Whole> angles;
+    std::map<std::string, Whole> features;
+    std::size_t never = 0;
+    for (std::size_t s = 0; s < settings_.size(); ++s) {
+      const auto& [feature, stylus, c_deg] = settings_[s];
+      const auto of = away.find(static_cast<int>(s));
+      // Surface touches beside a hole may lie anywhere.
+      const bool fits = of == away.end() || 4 * of->second.size() < 3 * touches[s];
+      never += fits ? 0 : 1;
+      for (Whole* whole : {&angles[c_deg], &features[feature]}) {
+        whole->fits = whole->fits || fits;
+        if (!fits) whole->away_mm.insert(whole->away_mm.end(), of->second.begin(), of->second.end());
+      }
+    }
+    if (never == 0 || 2 * never > settings_.size()) return;
+    for (const auto& [c_deg, whole] : angles) {
+      if (whole.fits) continue;
+      result_.contradict(fmt::format(
+          "All touches of {} at {:g}° lie some {:.0f} mm from where the machine file has their features: has c_deg the "
+          "right sign?",
+          artefact_.id, c_deg, median(whole.away_mm)));
+    }
+    for (const auto& [feature, whole] : features) {
+      if (whole.fits) continue;
+      result_.contradict(fmt::format(
+          "All touches of {} lie some {:.1f} mm from where the machine file has it: is its nominal position right?",
+          feature, median(whole.away_mm)));
     }
   }
 

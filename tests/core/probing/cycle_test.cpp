@@ -315,6 +315,23 @@ TEST(HoleCycle, ABarThatIsClampedBesideItsPlaceIsFound) {
   EXPECT_TRUE(result.good_enough);
 }
 
+TEST(HoleCycle, WhatFitsInNoCycleIsTheMachineFilesOrTheAnglesFault) {
+  const MachineDescription m = machineFrom(holeMachineText());
+  const VirtualRun run = runCycles(m, 3, {}, 97);
+  MachineDescription wrong = m;
+  wrong.artefacts.front().nominal_positions_mm[3] -= 11.0;
+  const HoleCycleResult of_feature = evaluateHoleCycles(run.list, wrong, wrong.artefacts.front());
+  EXPECT_FALSE(of_feature.good_enough);
+  EXPECT_THAT(of_feature.warnings,
+              ::testing::Contains(::testing::HasSubstr("All touches of H4 lie some 11.0 mm from")));
+  TouchList turned = run.list;
+  for (Touch& t : turned.touches)
+    if (t.c_deg == 90.0) t.c_deg = -90.0;
+  const HoleCycleResult of_angle = evaluateHoleCycles(turned, m, m.artefacts.front());
+  EXPECT_FALSE(of_angle.good_enough);
+  EXPECT_THAT(of_angle.warnings, ::testing::Contains(::testing::HasSubstr("All touches of bar at -90° lie some")));
+}
+
 /// The stylus was changed for one cycle: what it measured is left out with its reason.
 TEST_P(CycleKind, AnotherStylusInOneCycleIsTold) {
   const MachineDescription m = machine();
