@@ -5013,10 +5013,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>keine Konvergenz</translation>
     </message>
     <message>
-        <source>No displacement could be measured: see the rejected captures.</source>
-        <translation>Es konnte keine Verschiebung gemessen werden: siehe die verworfenen Aufnahmen.</translation>
-    </message>
-    <message>
         <source>no displacement of state {} can be fitted; allowed: rows EX, EY or EZ with use fit{}.</source>
         <translation>keine Verschiebung des Zustands {} ist anpassbar; zulässig: Zeilen EX, EY oder EZ mit use = fit{}.</translation>
     </message>
@@ -7957,10 +7953,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>doppelter Name {}; zulässig: jeder Name einmal.</translation>
     </message>
     <message>
-        <source>{} stands {:.1f} mm beside where the machine file has it; its place in the machine file enters the evaluation.</source>
-        <translation>{} steht {:.1f} mm neben der Stelle in der Maschinendatei; seine Lage in der Maschinendatei geht in die Auswertung ein.</translation>
-    </message>
-    <message>
         <source>{} starts at {:.1f} where the others start near {:.1f}: it may be in Fahrenheit; if so, rename the column to end in _degF.</source>
         <translation>{} beginnt bei {:.1f}, die anderen nahe {:.1f}: möglicherweise in Fahrenheit; falls ja, die Spalte auf _degF umbenennen.</translation>
     </message>
@@ -8073,10 +8065,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>{} mit seiner mangelnden Anpassung</translation>
     </message>
     <message>
-        <source>{} with stylus {}: the touches lie on a radius of {:.4f} mm, the machine file gives {:.4f} mm; check diameter and stylus radius (displacements do not depend on it).</source>
-        <translation>{} mit Tastereinsatz {}: die Antastungen liegen auf einem Radius von {:.4f} mm, die Maschinendatei gibt {:.4f} mm an; Durchmesser und Radius des Tastereinsatzes prüfen (Verschiebungen hängen nicht davon ab).</translation>
-    </message>
-    <message>
         <source>{} without time constant</source>
         <translation>{} ohne Zeitkonstante</translation>
     </message>
@@ -8099,10 +8087,6 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>{} {} is in {}, which cannot become {}: column {} stays empty.</source>
         <translation>{} {} ist in {}, das nicht in {} umgerechnet werden kann: Spalte {} bleibt leer.</translation>
-    </message>
-    <message>
-        <source>{} {} is not allowed; allowed: deviations up to {:g} {} in size.</source>
-        <translation>{} {} ist unzulässig; zulässig: Abweichungen bis {:g} {} Betrag.</translation>
     </message>
     <message>
         <source>{} {} is not allowed; allowed: greater than zero.</source>
@@ -11721,6 +11705,102 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>Error parameters over the cycles, each artefact by itself, one row on the same axes; bars: one standard uncertainty</source>
         <translation>Fehlerparameter über den Zyklen, jeder Prüfkörper für sich, eine Zeile mit gleichen Achsen; Balken: eine Standardunsicherheit</translation>
+    </message>
+    <message>
+        <source>No displacement in {} could be measured: see the rejected captures and the notes.</source>
+        <translation>Keine Verlagerung in {} konnte gemessen werden: siehe die verworfenen Aufnahmen und die Hinweise.</translation>
+    </message>
+    <message>
+        <source>The labels of {} and {} are swapped in state {} or in {}: each lies {:.1f} mm away, at the place of the other.</source>
+        <translation>Die Bezeichnungen von {} und {} sind in Zustand {} oder in {} vertauscht: jedes liegt {:.1f} mm entfernt, am Ort des anderen.</translation>
+    </message>
+    <message>
+        <source>The labels of {} and {} are swapped in state {}: each lies {:.1f} mm away, at the place of the other.</source>
+        <translation>Die Bezeichnungen von {} und {} sind in Zustand {} vertauscht: jedes liegt {:.1f} mm entfernt, am Ort des anderen.</translation>
+    </message>
+    <message>
+        <source>all {} points lie within {:.3g} mm although the axes travel {:g} mm: their positions look like metres; allowed: millimetres.</source>
+        <translation>alle {} Punkte liegen innerhalb von {:.3g} mm, obwohl die Achsen {:g} mm fahren: ihre Positionen sehen nach Metern aus; zulässig: Millimeter.</translation>
+    </message>
+    <message>
+        <source>{:g} {} is not allowed; allowed: deviations up to {:g} {} in size.</source>
+        <translation>{:g} {} ist nicht zulässig; zulässig: Abweichungen bis {:g} {} Betrag.</translation>
+    </message>
+    <message>
+        <source>{} in state {} lies {:.1f} mm from its place in the other states, where {} lies: {} was measured under the label {}.</source>
+        <translation>{} liegt in Zustand {} {:.1f} mm von seinem Ort in den anderen Zuständen entfernt, wo {} liegt: {} wurde unter der Bezeichnung {} gemessen.</translation>
+    </message>
+    <message>
+        <source>{} in state {} lies {:.1f} mm from its place in the other states; allowed: changes below {:g} mm (another feature, or another unit?).</source>
+        <translation>{} liegt in Zustand {} {:.1f} mm von seinem Ort in den anderen Zuständen entfernt; zulässig: Änderungen unter {:g} mm (ein anderes Merkmal oder eine andere Einheit?).</translation>
+    </message>
+    <message>
+        <source>In the middle of {}, between {:.0f} s and {:.0f} s, {} or the probe moved at once by {} (X {:.1f}, Y {:.1f}, Z {:.1f} µm), which heat does not do. All cycles are compared with this one: measure it again.</source>
+        <translation>Mitten in {}, zwischen {:.0f} s und {:.0f} s, hat sich {} oder der Messtaster schlagartig um {} bewegt (X {:.1f}, Y {:.1f}, Z {:.1f} µm), was Wärme nicht tut. Alle Zyklen werden mit diesem verglichen: ihn neu messen.</translation>
+    </message>
+    <message>
+        <source>In the middle of {}, between {:.0f} s and {:.0f} s, {} or the probe moved at once by {} (X {:.1f}, Y {:.1f}, Z {:.1f} µm), which heat does not do. The cycle is left out, and all later ones hold that step: measure a new first cycle.</source>
+        <translation>Mitten in {}, zwischen {:.0f} s und {:.0f} s, hat sich {} oder der Messtaster schlagartig um {} bewegt (X {:.1f}, Y {:.1f}, Z {:.1f} µm), was Wärme nicht tut. Der Zyklus bleibt weg, und alle späteren enthalten diesen Sprung: einen neuen ersten Zyklus messen.</translation>
+    </message>
+    <message>
+        <source>In {} the touches with stylus {} lie on a radius that differs by {} from that in the other cycles: another stylus, or a tip that is loose; they are left out.</source>
+        <translation>In {} liegen die Antastungen mit Tastereinsatz {} auf einem Radius, der um {} von dem in den anderen Zyklen abweicht: ein anderer Tastereinsatz oder eine lose Tastkugel; sie bleiben weg.</translation>
+    </message>
+    <message>
+        <source>In {} the touches with stylus {} lie on a radius that differs by {} from that in {}: another stylus, or a tip that is loose; they are left out.</source>
+        <translation>In {} liegen die Antastungen mit Tastereinsatz {} auf einem Radius, der um {} von dem in {} abweicht: ein anderer Tastereinsatz oder eine lose Tastkugel; sie bleiben weg.</translation>
+    </message>
+    <message>
+        <source>Stylus {} touched on the whole along ({:.1f}, {:.1f}, {:.1f}), but its offset ({:g}, {:g}, {:g}) mm does not point there: is a sign wrong, or are two styli swapped? Head tilt and drift of the spindle depend on it.</source>
+        <translation>Tastereinsatz {} hat im Ganzen entlang ({:.1f}, {:.1f}, {:.1f}) angetastet, aber sein Versatz ({:g}, {:g}, {:g}) mm zeigt nicht dorthin: ist ein Vorzeichen falsch, oder sind zwei Tastereinsätze vertauscht? Kopfneigung und Drift der Spindel hängen davon ab.</translation>
+    </message>
+    <message>
+        <source>The offset of stylus {} is {:.3g} mm long, less than the radius of its ball ({:g} mm): is it in metres?</source>
+        <translation>Der Versatz von Tastereinsatz {} ist {:.3g} mm lang, weniger als der Radius seiner Kugel ({:g} mm): ist er in Metern?</translation>
+    </message>
+    <message>
+        <source>artefact or probe moved in the middle of {}</source>
+        <translation>Prüfkörper oder Messtaster mitten in {} bewegt</translation>
+    </message>
+    <message>
+        <source>distances between features are 1000 times too large: the machine file looks like metres; allowed: millimetres in both files.</source>
+        <translation>Abstände zwischen Merkmalen sind 1000-mal zu groß: die Maschinendatei sieht nach Metern aus; zulässig: Millimeter in beiden Dateien.</translation>
+    </message>
+    <message>
+        <source>distances between features are 1000 times too small, so positions look like metres; allowed: millimetres.</source>
+        <translation>Abstände zwischen Merkmalen sind 1000-mal zu klein, die Positionen sehen also nach Metern aus; zulässig: Millimeter.</translation>
+    </message>
+    <message>
+        <source>stylus {} is not the same as in the other cycles</source>
+        <translation>Tastereinsatz {} ist nicht derselbe wie in den anderen Zyklen</translation>
+    </message>
+    <message>
+        <source>{} stands up to {:.1f} mm beside where the machine file has it (clamped {:.1f} mm beside its place and turned by {:.2f}°, centre of the rotary axis {:.1f} mm off): its features were found there, but its place in the machine file enters the evaluation.</source>
+        <translation>{} steht bis zu {:.1f} mm neben dem Ort in der Maschinendatei ({:.1f} mm neben seinem Platz gespannt und um {:.2f}° verdreht, Mitte der Drehachse um {:.1f} mm versetzt): seine Merkmale wurden dort gefunden, in die Auswertung geht aber der Ort der Maschinendatei ein.</translation>
+    </message>
+    <message>
+        <source>{} stands up to {:.1f} mm beside where the machine file has it (turned by {:.2f}°): its features were found there, but its place in the machine file enters the evaluation.</source>
+        <translation>{} steht bis zu {:.1f} mm neben dem Ort in der Maschinendatei (um {:.2f}° verdreht): seine Merkmale wurden dort gefunden, in die Auswertung geht aber der Ort der Maschinendatei ein.</translation>
+    </message>
+    <message>
+        <source>{} with stylus {}: the touches lie on a radius of {:.4f} ± {:.4f} mm, the machine file gives {:.4f} mm; check diameter and stylus radius (displacements do not depend on it).</source>
+        <translation>{} mit Tastereinsatz {}: die Antastungen liegen auf einem Radius von {:.4f} ± {:.4f} mm, die Maschinendatei gibt {:.4f} mm an; Durchmesser und Radius des Tastereinsatzes prüfen (Verlagerungen hängen nicht davon ab).</translation>
+    </message>
+    <message>
+        <source>a lever of {:.3g} mm looks like metres; allowed: millimetres from the slide&apos;s origin to the tool frame, or zeros.</source>
+        <translation>ein Hebel von {:.3g} mm sieht nach Metern aus; zulässig: Millimeter vom Ursprung des Schlittens zum Werkzeugsystem, oder Nullen.</translation>
+    </message>
+    <message>
+        <source>all carriage positions lie within {:.3g} mm although {} travels {:g} mm: they look like metres; allowed: millimetres.</source>
+        <translation>alle Schlittenpositionen liegen innerhalb von {:.3g} mm, obwohl {} {:g} mm fährt: sie sehen nach Metern aus; zulässig: Millimeter.</translation>
+    </message>
+    <message>
+        <source>All touches of {} at {:g}° lie some {:.0f} mm from where the machine file has their features: has c_deg the right sign?</source>
+        <translation>Alle Antastungen von {} bei {:g}° liegen etwa {:.0f} mm von dem Ort entfernt, an dem die Maschinendatei ihre Merkmale hat: hat c_deg das richtige Vorzeichen?</translation>
+    </message>
+    <message>
+        <source>All touches of {} lie some {:.1f} mm from where the machine file has it: is its nominal position right?</source>
+        <translation>Alle Antastungen von {} liegen etwa {:.1f} mm von dem Ort in der Maschinendatei entfernt: stimmt die Sollposition?</translation>
     </message>
 </context>
 <context>

@@ -9,7 +9,7 @@
 std::span<const char* const> spindrift::gui::core_formats::imaging() noexcept {
   static const char* const formats[] = {
     QT_TRANSLATE_NOOP("core", ": another fiducial, or not at its position."),
-    QT_TRANSLATE_NOOP("core", "No displacement could be measured: see the rejected captures."),
+    QT_TRANSLATE_NOOP("core", "No displacement in {} could be measured: see the rejected captures and the notes."),
     QT_TRANSLATE_NOOP("core", "No fiducial could be evaluated."),
     QT_TRANSLATE_NOOP("core", "No fiducial has a {} in {}: its change is relative to {}."),
     QT_TRANSLATE_NOOP("core", "No images along X or Y could be used: displacements in the plane cannot be turned into the machine's axes and are left out."),

@@ -108,7 +108,6 @@ std::span<const char* const> spindrift::gui::core_formats::simulation() noexcept
     QT_TRANSLATE_NOOP("core", "virtual three-axis gantry"),
     QT_TRANSLATE_NOOP("core", "virtual three-axis mill"),
     QT_TRANSLATE_NOOP("core", "{} numbers"),
-    QT_TRANSLATE_NOOP("core", "{} to {}"),
   };
   return formats;
 }
