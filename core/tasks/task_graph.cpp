@@ -202,6 +202,8 @@ std::vector<std::string> TaskGraph::changes(const StoredResult& result, const Re
   if (result.provenance.inputs.empty()) return {"what it was made from is not known to this version"};
   const TaskKind* one = kind(result.kind);
   Provenance then = result.provenance;
+  // Versions that counted no revisions gave the first.
+  if (!then.inputs.contains("revision")) then.inputs["revision"] = 1;
   if (one != nullptr && one->as_now != nullptr) one->as_now(then, now);
   // As they would be written now: earlier versions wrote less. Options beyond those belong to whoever added them.
   then.options = one == nullptr ? now.options : one->options_of(then.options);

@@ -132,7 +132,7 @@ TEST(TaskGraph, AnotherVersionOfTheProgramOutdatesWhatItCalculatesAnotherWayAlon
   fit.provenance.inputs["revision"] = taskKind("fit")->revision - 1;
   EXPECT_THAT(s.graph().changes(fit), ElementsAre("the version of the program"));
   fit.provenance.inputs.erase("revision");
-  EXPECT_THAT(s.graph().changes(fit), ElementsAre("the version of the program")) << "of versions that did not count";
+  EXPECT_EQ(s.graph().changes(fit).empty(), taskKind("fit")->revision == 1) << "of versions that did not count";
 }
 
 TEST(TaskGraph, WhatWasWorkedOutNowIsComparedWithAStoredResultAsTheGraphComparesIt) {
