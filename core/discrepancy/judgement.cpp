@@ -718,6 +718,10 @@ Judgement judge(const ResidualProblem& problem, const EffectSearch& search, cons
     for (const PartInstead& p : all)
       if (p.possible && p.id != out.names[k].id && (best == nullptr || p.evidence > best->evidence)) best = &p;
     if (best == nullptr || !(best->evidence > 0.0)) continue;
+    // Its own part, off by what is missing, explains it better than that other one.
+    if (std::any_of(all.begin(), all.end(),
+                    [&](const PartInstead& p) { return p.id == out.names[k].id && p.evidence > best->evidence; }))
+      continue;
     if (best->evidence + instead_as_well < out.names[k].delta_evidence) continue;
     out.warnings.push_back(
         fmt::format("The simulation has {:.0f} ± {:.0f} % too {} of {}: no more than a rough simulation may be off by, "

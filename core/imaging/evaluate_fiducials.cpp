@@ -228,12 +228,14 @@ InstrumentEvaluation evaluateFiducials(const Campaign& campaign, JobContext& job
     return std::any_of(displacement.states.begin(), displacement.states.end(),
                        [&](const FiducialState& s) { return !s.reference && has(s); });
   };
-  if (asked(CaptureRole::Rotation) && !known([](const FiducialState& s) { return s.xy_um.has_value(); }))
-    open.insert(open.end(), {"X", "Y"});
-  if (asked(CaptureRole::Focus) && !known([](const FiducialState& s) { return s.z_um.has_value(); }))
-    open.emplace_back("Z");
+  const bool in_plane = known([](const FiducialState& s) { return s.xy_um.has_value(); });
+  const bool along_z = known([](const FiducialState& s) { return s.z_um.has_value(); });
+  if (asked(CaptureRole::Rotation) && !in_plane) open.insert(open.end(), {"X", "Y"});
+  if (asked(CaptureRole::Focus) && !along_z) open.emplace_back("Z");
+  const bool nothing = !in_plane && !along_z;
+  if (nothing) open = {"X", "Y", "Z"};
   if (!open.empty() && list.states().size() > 1) {
-    evaluation.good_enough = false;
+    evaluation.good_enough = evaluation.good_enough && !nothing;
     evaluation.warnings.push_back(fmt::format(
         "No displacement in {} could be measured: see the rejected captures and the notes.", joinedList(open)));
   }

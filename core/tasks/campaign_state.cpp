@@ -15,6 +15,9 @@ namespace spindrift {
 
 namespace {
 
+/// The kind of results that hold what was evaluated from captures.
+constexpr std::string_view of_captures = "evaluate";
+
 /// Factors as lists of [row, load].
 nlohmann::json sharedJson(const SharedNoise& shared) {
   nlohmann::json out = nlohmann::json::array();
@@ -224,7 +227,7 @@ CampaignState CampaignState::read(const CampaignSource& source, JobContext& job)
   for (const UnreadResult& result : source.newest) {
     job.throwIfCancelled();
     StoredResult read = result.read();
-    if (read.kind == "evaluate") state.evaluation_ = std::make_shared<const StoredEvaluation>(evaluationFrom(read));
+    if (read.kind == of_captures) state.evaluation_ = std::make_shared<const StoredEvaluation>(evaluationFrom(read));
     state.results_.takeRead(std::move(read));
   }
   return state;
@@ -254,7 +257,7 @@ void CampaignState::keep(std::optional<StoredResult> result) {
 }
 
 std::shared_ptr<const StoredEvaluation> CampaignState::evaluation(const TaskGraph& graph) const {
-  const StoredResult* latest = graph.latest("evaluate");
+  const StoredResult* latest = graph.latest(std::string(of_captures));
   if (latest == nullptr) return nullptr;
   if (evaluation_ == nullptr || evaluation_->id != latest->id)
     evaluation_ = std::make_shared<const StoredEvaluation>(evaluationFrom(*latest));

@@ -11776,7 +11776,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>{} stands up to {:.1f} mm beside where the machine file has it (clamped {:.1f} mm beside its place and turned by {:.2f}°, centre of the rotary axis {:.1f} mm off): its features were found there, but its place in the machine file enters the evaluation.</source>
-        <translation>{} steht bis zu {:.1f} mm neben dem Ort in der Maschinendatei ({:.1f} mm neben seinem Platz gespannt und um {:.2f}° verdreht, Mitte der Drehachse um {:.1f} mm versetzt): seine Merkmale wurden dort gefunden, in die Auswertung geht aber der Ort der Maschinendatei ein.</translation>
+        <translation>{} steht bis zu {:.1f} mm neben dem Ort in der Maschinendatei ({:.1f} mm neben seinem Platz gespannt und um {:.2f}° verdreht, Mitte der Rundachse um {:.1f} mm versetzt): seine Merkmale wurden dort gefunden, in die Auswertung geht aber der Ort der Maschinendatei ein.</translation>
     </message>
     <message>
         <source>{} stands up to {:.1f} mm beside where the machine file has it (turned by {:.2f}°): its features were found there, but its place in the machine file enters the evaluation.</source>

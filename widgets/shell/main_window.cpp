@@ -458,7 +458,13 @@ constexpr auto chosen_key = "campaign";
 
 void MainWindow::selectCampaign(std::int64_t id) {
   jobs_.cancel(reading_);
-  if (id == session_.campaignId() || !session_.isOpen()) return;
+  if (!session_.isOpen()) return;
+  if (id == session_.campaignId()) {
+    // Who chooses it wants to see it, wherever the window has gone meanwhile.
+    showSessionOrWelcome();
+    showStep();
+    return;
+  }
   try {
     Job job;
     job.work = [this, reading = session_.reading(id)](JobContext& context) -> std::function<void()> {
@@ -870,7 +876,6 @@ void MainWindow::askAndOpen(const QString& folder) {
 
 void MainWindow::closeEvent(QCloseEvent* event) {
   QStringList lost = lostWithSession();
-  if (const QString batch = jobs_.firstOf(JobQueue::Batch); !batch.isEmpty()) lost << stillRunning(batch);
   if (ClosedLoopService::of(session_).running())
     lost.prepend(
         tr("A machine is being compensated. Quitting fades its compensation to zero and ends the loop; what was "

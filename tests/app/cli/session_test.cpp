@@ -33,7 +33,18 @@ TEST(SessionCommand, SaysHowFarEveryStepIsAndWhatChanged) {
                       {{"captures", {{{"image", "captures/a.jpg"}, {"good", false}}}}});
     session.addResult(id, "evaluate", nlohmann::json::object(), {{"json", nlohmann::json::object()}});
   }
+  // Captures are evaluated otherwise than by the first revision, which counted none.
   nlohmann::json answer = jsonOf({"session", place});
+  EXPECT_EQ(stepOf(answer, "Calibrate").at("state"), "outdated");
+  EXPECT_EQ(stepOf(answer, "Calibrate").at("changed"), nlohmann::json({"the version of the program"}));
+  {
+    Session session = Session::open(place);
+    const auto id = session.campaigns().front().id;
+    ResultOrigin origin{id, "evaluate", nlohmann::json::object(), session.inputs(id)};
+    origin.inputs["revision"] = 2;
+    ASSERT_TRUE(session.keepResult(origin, {{"json", nlohmann::json::object()}}).has_value());
+  }
+  answer = jsonOf({"session", place});
   EXPECT_EQ(stepOf(answer, "Capture").at("state"), "attention");
   EXPECT_EQ(stepOf(answer, "Capture").at("count"), 1);
   EXPECT_EQ(stepOf(answer, "Calibrate").at("state"), "done");

@@ -21,7 +21,6 @@
 #include "widgets/common/question.h"
 #include "widgets/common/words.h"
 #include "widgets/jobs/task_job.h"
-#include "widgets/pages/common/note_tone.h"
 #include "widgets/panels/common/effect_titles.h"
 #include "widgets/panels/discrepancy/effects_panel.h"
 #include "widgets/panels/discrepancy/gap_panel.h"
@@ -289,7 +288,7 @@ void DiscrepancyPage::refresh() {
   } else if (!story_->warnings.empty()) {
     QString text = titledSentence(story_->warnings.front());
     if (story_->warnings.size() > 1) text += QLatin1Char(' ') + tr("And %1 more.").arg(story_->warnings.size() - 1);
-    callout()->show(noteTone(context().workflow, step()), text);
+    callout()->show(Tone::Attention, text);
   } else {
     callout()->set(Tone::Neutral, {});
   }

@@ -24,7 +24,6 @@
 #include "widgets/common/wrap_layout.h"
 #include "widgets/models/cells.h"
 #include "widgets/models/rows_model.h"
-#include "widgets/pages/common/note_tone.h"
 #include "widgets/panels/common/effect_titles.h"
 #include "widgets/theme/numbers.h"
 #include "widgets/theme/shown_units.h"
@@ -289,7 +288,7 @@ void NineParameterPage::showFit() {
   if (f.status == FitStatus::Converged) {
     if (order.richer() || !warnings.isEmpty()) warnings += QLatin1Char(' ') + reason;
     if (!warnings.isEmpty()) {
-      callout()->show(noteTone(context().workflow, step()), warnings.trimmed());
+      callout()->show(Tone::Attention, warnings.trimmed());
     } else {
       callout()->show(Tone::Good,
                       tr("State %1 against %2: all nine parameters are determined.")

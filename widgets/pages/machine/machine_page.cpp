@@ -36,22 +36,6 @@
 #include "widgets/view3d/view3d.h"
 
 namespace spindrift::gui {
-namespace {
-
-/// The linear axes that cannot reach a point.
-std::vector<const LinearAxis*> outsideTravel(const MachineDescription& machine, const MachinePoint& point) {
-  std::vector<const LinearAxis*> axes;
-  for (int i = 0; i < 3; ++i) {
-    const LinearAxis* axis = machine.findAxis(std::string(1, "XYZ"[i]));
-    if (axis == nullptr) continue;
-    const double p = point.position_mm[i];
-    if (p < axis->travel_mm[0] - 1e-9 || p > axis->travel_mm[1] + 1e-9) axes.push_back(axis);
-  }
-  return axes;
-}
-
-}  // namespace
-
 QStringList machineFindings(const MachineDescription& machine) {
   QStringList findings;
   QStringList no_resolution;
@@ -74,12 +58,17 @@ QStringList machineFindings(const MachineDescription& machine) {
                     .arg(listed(no_bearing));
   }
   for (const MachinePoint& point : machine.points) {
-    for (const LinearAxis* axis : outsideTravel(machine, point)) {
-      findings << MachinePage::tr("Point %1 lies outside the travel of axis %2 (%3 mm; travel %4 to %5 mm).")
-                      .arg(QString::fromStdString(point.id), QString::fromStdString(axis->name))
-                      .arg(point.position_mm[static_cast<int>(std::string_view("XYZ").find(axis->name.front()))])
-                      .arg(axis->travel_mm[0])
-                      .arg(axis->travel_mm[1]);
+    for (int i = 0; i < 3; ++i) {
+      const LinearAxis* axis = machine.findAxis(std::string(1, "XYZ"[i]));
+      if (axis == nullptr) continue;
+      const double p = point.position_mm[i];
+      if (p < axis->travel_mm[0] - 1e-9 || p > axis->travel_mm[1] + 1e-9) {
+        findings << MachinePage::tr("Point %1 lies outside the travel of axis %2 (%3 mm; travel %4 to %5 mm).")
+                        .arg(QString::fromStdString(point.id), QString::fromStdString(axis->name))
+                        .arg(p)
+                        .arg(axis->travel_mm[0])
+                        .arg(axis->travel_mm[1]);
+      }
     }
   }
   return findings;
@@ -361,11 +350,7 @@ void MachinePage::showFindings() {
   if (findings.isEmpty()) {
     callout()->show(Tone::Good, tr("The description is complete for everything Spindrift does with it."));
   } else {
-    // A description that says less than it could is no fault: the step is done. A point out of reach is one.
-    const MachineDescription& machine = session().campaign()->machine;
-    const bool fault = std::any_of(machine.points.begin(), machine.points.end(),
-                                   [&](const MachinePoint& point) { return !outsideTravel(machine, point).empty(); });
-    callout()->show(fault ? Tone::Attention : Tone::Accent,
+    callout()->show(Tone::Attention,
                     findings.mid(0, 3).join(QLatin1Char(' ')) +
                         (findings.size() > 3 ? tr(" And %1 more.").arg(findings.size() - 3) : QString()));
   }

@@ -23,7 +23,6 @@
 #include "widgets/common/parts.h"
 #include "widgets/models/cells.h"
 #include "widgets/models/rows_model.h"
-#include "widgets/pages/common/note_tone.h"
 #include "widgets/panels/common/effect_titles.h"
 #include "widgets/plots/plot.h"
 #include "widgets/services/touch_results.h"
@@ -174,7 +173,7 @@ void CycleModelPage::refresh() {
     QStringList sentences;
     for (const std::string& w : cycles->warnings) sentences << coreSentence(w);
     if (sentences.isEmpty()) sentences << coreSentence(cycles->message);
-    callout()->show(noteTone(context().workflow, step()), sentences.mid(0, 2).join(QLatin1Char(' ')));
+    callout()->show(Tone::Attention, sentences.mid(0, 2).join(QLatin1Char(' ')));
   }
   const QString chosen = cycle_->currentText();
   cycle_->clear();
@@ -182,10 +181,9 @@ void CycleModelPage::refresh() {
   const int at = cycle_->findText(chosen);
   cycle_->setCurrentIndex(at >= 0 ? at : cycle_->count() - 1);
   if (evaluation_->hole_cycles.size() + evaluation_->ball_cycles.size() > 1) {
-    callout()->show(noteTone(context().workflow, step()),
-                    tr("This page shows %1. The other artefacts are evaluated too: their deviations "
-                       "stand in the observations and in the report.")
-                        .arg(fromCore(cycles->artefact)));
+    callout()->show(Tone::Attention, tr("This page shows %1. The other artefacts are evaluated too: their deviations "
+                                        "stand in the observations and in the report.")
+                                         .arg(fromCore(cycles->artefact)));
   }
   showTrends();
   showCycle();

@@ -18,7 +18,6 @@
 #include "widgets/common/preferences.h"
 #include "widgets/models/cells.h"
 #include "widgets/models/rows_model.h"
-#include "widgets/pages/common/note_tone.h"
 #include "widgets/panels/probing/reference_panel.h"
 #include "widgets/plots/plot.h"
 #include "widgets/services/touch_results.h"
@@ -161,7 +160,7 @@ void TouchEvaluationPage::refresh() {
   } else if (!stored->good_enough || !stored->warnings.empty()) {
     QStringList sentences;
     for (const std::string& w : stored->warnings) sentences << coreSentence(w);
-    callout()->show(noteTone(context().workflow, step()),
+    callout()->show(Tone::Attention,
                     sentences.mid(0, 2).join(QLatin1Char(' ')) +
                         (sentences.size() > 2 ? tr(" And %1 more.").arg(sentences.size() - 2) : QString()));
   } else {
@@ -183,10 +182,9 @@ void TouchEvaluationPage::refresh() {
   const int at = cycle_->findText(chosen);
   cycle_->setCurrentIndex(at >= 0 ? at : cycle_->count() - 1);
   if (details_.touches->hole_cycles.size() + details_.touches->ball_cycles.size() > 1) {
-    callout()->show(noteTone(context().workflow, step()),
-                    tr("This page shows %1. The other artefacts are evaluated too: their deviations "
-                       "stand in the observations and in the report.")
-                        .arg(fromCore(cycles->artefact)));
+    callout()->show(Tone::Attention, tr("This page shows %1. The other artefacts are evaluated too: their deviations "
+                                        "stand in the observations and in the report.")
+                                         .arg(fromCore(cycles->artefact)));
   }
   showTiles(*cycles);
   showFeatures();

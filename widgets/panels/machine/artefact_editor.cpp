@@ -97,7 +97,7 @@ ArtefactEditor::ArtefactEditor(PageContext page_context, QWidget* parent)
   buttons->addWidget(discard_);
   buttons->addWidget(apply_);
   left->body()->addLayout(buttons);
-  column->addWidget(makeSplitter(this, left, right, 8, 7), 1);
+  column->addWidget(makeSplitter(this, left, right, 9, 6), 1);
 
   connect(choice_, &QComboBox::activated, this, &ArtefactEditor::showArtefact);
   connect(add_bar, &QPushButton::clicked, this, [this] { addArtefact("hole_bar"); });

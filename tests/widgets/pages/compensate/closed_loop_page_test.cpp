@@ -30,7 +30,6 @@
 #include "tests/core/control/stand_in_control.h"
 #include "tests/core/workflows/true_machine.h"
 #include "tests/support/temp_folder.h"
-#include "tests/widgets/support/select_campaign.h"
 #include "widgets/common/parts.h"
 #include "widgets/jobs/job_bar.h"
 #include "widgets/models/rows_model.h"
@@ -189,7 +188,7 @@ TEST_F(ClosedLoopPageTest, StaysWhenTheCampaignIsReadAgain) {
   ASSERT_TRUE(page_->isVisible());
   window_->session().setClockOffsets({{"log", {30.0, 2.0, "by hand"}}});
   EXPECT_TRUE(page_->isVisible()) << "a recording that ends does this";
-  selectCampaign(window_->session(), id);
+  window_->selectCampaign(id);
   EXPECT_FALSE(page_->isVisible()) << "who chooses a campaign wants to see it";
 }
 

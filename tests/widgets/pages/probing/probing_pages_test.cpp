@@ -36,6 +36,8 @@ class ProbingPages : public PageTest {
         t.position_mm += 0.04 * t.approach;
         bad_ = QString::fromStdString(t.id());
       }
+      if (t.cycle == "M2" && t.feature == (holes ? "H2" : "B2") && t.touch == 1 && t.stylus == "p0" && t.c_deg == 0.0)
+        other_ = QString::fromStdString(t.id());
     }
     removeTouches(run.list, [&](const Touch& t) {
       return t.cycle == "M3" && t.feature == (holes ? "H5" : "B4") && t.touch == 2 && t.stylus == "p0" &&
@@ -56,6 +58,7 @@ class ProbingPages : public PageTest {
 
   std::vector<std::vector<double>> truth_;
   QString bad_;
+  QString other_;  ///< a good one
 };
 
 TEST_F(ProbingPages, CaptureSaysWhatBecameOfEveryTouch) {
@@ -131,8 +134,12 @@ TEST_F(ProbingPages, TheModelEvaluatesFirstWhatIsOutdated) {
   EXPECT_EQ(kinds(), QStringLiteral("evaluate fit evaluate fit"));
   for (const char* kind : {"evaluate", "fit"}) EXPECT_TRUE(session.state(kind).current) << kind;
   EXPECT_NE(page->callout()->tone(), Tone::Outdated) << page->callout()->sentence().toStdString();
-  // Cancelled as one.
+  // What is as it was holds again, and nothing is run for it.
   window_->undoStack().undo();
+  ASSERT_TRUE(waitForJobs(*window_, 10));
+  for (const char* kind : {"evaluate", "fit"}) EXPECT_TRUE(session.state(kind).current) << kind;
+  // Cancelled as one.
+  window_->undoStack().push(new ExcludeCommand(window_->session(), {other_}, QStringLiteral("bad as well")));
   ASSERT_TRUE(waitForJobs(*window_, 10));
   QTest::mouseClick(page->primaryButton(), Qt::LeftButton);
   window_->jobs().cancelAll();

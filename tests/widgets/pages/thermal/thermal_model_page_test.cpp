@@ -103,9 +103,12 @@ TEST_F(ThermalPages, DraggingTheTrainingRangeChangesItAndUndoBringsItBack) {
   press();
   EXPECT_NE(page->callout()->tone(), Tone::Outdated);
   EXPECT_NEAR(page->result()->model.train_to_s, 5.0 * 3600, 200);
+  // The model of the range as it was holds again, and is the one that is shown.
   window_->undoStack().undo();
+  ASSERT_TRUE(waitForJobs(*window_, 30));
   EXPECT_EQ(page->request().train.to_s, before.to_s);
-  EXPECT_EQ(page->callout()->tone(), Tone::Outdated);
+  EXPECT_NE(page->callout()->tone(), Tone::Outdated);
+  EXPECT_NEAR(page->result()->model.train_to_s, before.to_s, 200);
 }
 
 TEST_F(ThermalPages, InputsAndMethodAreChosen) {
