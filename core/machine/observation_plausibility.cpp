@@ -148,7 +148,8 @@ class PlausibilityCheck {
 
   void report() {
     const std::string& first_state = set_.rows.empty() ? std::string() : set_.rows.front().state;
-    for (const auto& [key, reading] : readings_) {
+    for (const auto& entry : readings_) {
+      const Reading& reading = entry.second;
       const double size = reading.change_mm.norm();
       if (reading.other.empty()) continue;
       std::vector<std::size_t> rows = rowsOf(reading);

@@ -119,6 +119,8 @@ ShownTask Page::shown(const std::string& task, const QString& title) {
 }
 
 void Page::runAlone(const std::string& task) {
+  // A result that holds, such as that of options that were undone, is read, not worked out once more.
+  if (session().state(task).current) return;
   if (canRun(task) && session().tasks().needed(task).size() <= 1) runTask(task);
 }
 
