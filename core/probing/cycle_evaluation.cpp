@@ -429,12 +429,13 @@ class Assembler {
       for (const FoundRadius& r : found[s]) values.push_back(r.radius_mm);
       radius_[s] = values.empty() ? radiusOf(static_cast<int>(s)) : median(std::move(values));
     }
-    rejectOtherStyli(found);
+    rejectOtherStyli(found, excluded);
     judgeRadii(found);
   }
 
   /// A stylus that is another one in one cycle: all its touches there lie on a radius that is not that of the others.
-  void rejectOtherStyli(const std::vector<std::vector<FoundRadius>>& found) {
+  /// `excluded`: by touch, what is left out already.
+  void rejectOtherStyli(const std::vector<std::vector<FoundRadius>>& found, const std::vector<bool>& excluded) {
     constexpr double telling_mm = 0.01;  // a ball warms by nanometres, a probe repeats to micrometres
     constexpr std::size_t telling_features = 3;
     const bool two_cycles = result_.cycles.size() < 3;
@@ -466,15 +467,10 @@ class Assembler {
       for (const Group& g : groups_) {
         if (g.cycle != cycle || std::get<1>(settings_[static_cast<std::size_t>(g.setting)]) != stylus) continue;
         for (const std::size_t i : g.touches)
-          if (!rejectedAlready(i))
+          if (!excluded[i])
             result_.rejected.push_back({i, fmt::format("stylus {} is not the same as in the other cycles", stylus)});
       }
     }
-  }
-
-  [[nodiscard]] bool rejectedAlready(std::size_t touch) const {
-    return std::any_of(result_.rejected.begin(), result_.rejected.end(),
-                       [&](const RejectedTouch& r) { return r.touch == touch; });
   }
 
   /// What the machine file says of diameters and styli, against the touches: one sentence for all features that differ
