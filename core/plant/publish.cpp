@@ -187,17 +187,19 @@ std::vector<PlantCampaign> waitingFor(const Session& session, const std::string&
   return waiting;
 }
 
-Publication beginPublication(const Session& session, const std::vector<std::int64_t>& campaigns,
+Publication beginPublication(const Session& session, const std::vector<CampaignState>& campaigns,
                              const PlantAddress& address) {
   Publication p;
   p.store = address.text();
   p.campaigns = waitingFor(session, p.store);
   p.waited = !p.campaigns.empty();
-  for (const std::int64_t id : campaigns) {
-    Publication::Pending pending{session.campaign(id), {}};
-    for (const std::string& kind : session.resultKinds(id)) {
-      const std::optional<StoredResult> stored = session.latestResult(id, kind);
-      if (!stored) continue;
+  const TaskLedger nothing_runs;
+  for (const CampaignState& state : campaigns) {
+    Publication::Pending pending{session.campaign(state.id), state.files, {}};
+    const TaskGraph graph = state.tasks(session, nothing_runs);
+    for (const std::string& kind : session.resultKinds(state.id)) {
+      const StoredResult* stored = graph.latest(kind);
+      if (stored == nullptr) continue;
       if (std::optional<PlantResult> r = plantResult(*stored)) pending.results.push_back(std::move(*r));
     }
     p.pending.push_back(std::move(pending));
@@ -208,9 +210,9 @@ Publication beginPublication(const Session& session, const std::vector<std::int6
 PublishOutcome sendPublication(Publication& p, const PlantAddress& address, const PlantOpening& opening,
                                JobContext& job) {
   for (std::size_t i = 0; i < p.pending.size(); ++i) {
-    const auto& [record, results] = p.pending[i];
+    const auto& [record, campaign, results] = p.pending[i];
     job.report(static_cast<double>(i) / static_cast<double>(p.pending.size()), "reading the campaign");
-    PlantCampaign c = headOf(Campaign::read(record.folder));
+    PlantCampaign c = headOf(*campaign);
     c.fingerprint = record.fingerprint;
     c.results = results;
     addCaptures(record.folder, fingerprintsOfFiles(record.folder, job), c);
@@ -250,7 +252,9 @@ void endPublication(Session& session, const Publication& p, const PublishOutcome
 
 PublishOutcome publishFromSession(Session& session, const std::vector<std::int64_t>& campaigns,
                                   const PlantAddress& address, const PlantOpening& opening) {
-  Publication publication = beginPublication(session, campaigns, address);
+  std::vector<CampaignState> states;
+  for (const std::int64_t id : campaigns) states.push_back(CampaignState::read(session, id));
+  Publication publication = beginPublication(session, states, address);
   JobContext job;
   const PublishOutcome outcome = sendPublication(publication, address, opening, job);
   endPublication(session, publication, outcome);

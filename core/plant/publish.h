@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,6 +12,7 @@
 #include "core/base/job_context.h"
 #include "core/plant/plant_store.h"
 #include "core/session/session.h"
+#include "core/tasks/campaign_state.h"
 
 namespace spindrift {
 
@@ -35,11 +37,14 @@ struct PublishOutcome {
   std::vector<std::string> warnings;  ///< of the store, such as a wrong clock
 };
 
-/// Publishing in three parts, so that a window does not wait for files and servers: the first and the last where the
-/// session is used, the one between on any thread.
+/// Publishing in parts, so that a window does not wait for files and servers: campaigns are read on any thread
+/// (CampaignState::read), the publication begins and ends where the session is used, and is sent on any thread. Of
+/// every kind the newest result that holds is published, as everything else uses it (TaskGraph::latest); of a kind of
+/// which none holds, the newest.
 struct Publication {
   struct Pending {
     CampaignRecord record;
+    std::shared_ptr<const Campaign> campaign;
     std::vector<PlantResult> results;
   };
   std::string store;
@@ -47,7 +52,8 @@ struct Publication {
   std::vector<PlantCampaign> campaigns;  ///< what waits already; `sendPublication` adds the pending ones
   bool waited = false;
 };
-[[nodiscard]] Publication beginPublication(const Session& session, const std::vector<std::int64_t>& campaigns,
+/// `campaigns` as they were read from this session. Throws InputError: a result cannot be read.
+[[nodiscard]] Publication beginPublication(const Session& session, const std::vector<CampaignState>& campaigns,
                                            const PlantAddress& address);
 /// A store that cannot be reached is an outcome; a refusal is an InputError, and what waits goes on waiting.
 [[nodiscard]] PublishOutcome sendPublication(Publication& publication, const PlantAddress& address,
@@ -55,7 +61,7 @@ struct Publication {
 /// Keeps what has to wait, and forgets what has arrived.
 void endPublication(Session& session, const Publication& publication, const PublishOutcome& outcome);
 
-/// All three.
+/// All of it.
 [[nodiscard]] PublishOutcome publishFromSession(Session& session, const std::vector<std::int64_t>& campaigns,
                                                 const PlantAddress& address, const PlantOpening& opening = {});
 

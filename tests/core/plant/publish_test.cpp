@@ -42,6 +42,32 @@ class PublishTest : public OnBothStores {
 };
 INSTANTIATE_TEST_SUITE_P(On, PublishTest, ::testing::Values("sqlite", "postgresql"), testing::storeName);
 
+TEST_P(PublishTest, TheResultThatHoldsIsPublished) {
+  (void)make();
+  Session s = session("a");
+  folder_.write("a/campaigns/warm-up/observations.csv",
+                "time_s,state,point,x_mm,y_mm,z_mm,component,value,sigma\n"
+                "0,M0,F1,0,0,0,EX,0,0.2\n60,M1,F1,0,0,0,EX,1.5,0.2\n60,M1,F2,100,0,0,EX,1.5,0.2\n");
+  const auto fit = [&s](double ex_um) {
+    const CampaignState state = CampaignState::read(s, 1);
+    const TaskLedger nothing_runs;
+    ASSERT_TRUE(s.keepResult(state.tasks(s, nothing_runs).origin("fit"),
+                             {{"status", "converged"},
+                              {"state", "M1"},
+                              {"parameters", {{"EX_um", {{"value", ex_um}, {"standard_uncertainty", 0.2}}}}}})
+                    .has_value());
+  };
+  fit(1.5);
+  s.exclude(1, "M1/F2/EX", "disturbed");
+  fit(9.0);
+  s.restore(1, "M1/F2/EX");  // so that the first of them holds again
+  EXPECT_EQ(publishFromSession(s, {1}, address()).count.results_new, 1U);
+  PlantStore store = PlantStore::open(address());
+  const PlantCampaign c = store.campaign(store.campaigns("mill").at(0).id);
+  ASSERT_EQ(c.results.at(0).parameters.size(), 1U);
+  EXPECT_EQ(c.results[0].parameters[0].value, 1.5);
+}
+
 TEST_P(PublishTest, SessionPublishesWhatItKnowsOfTheMachine) {
   (void)make();
   Session s = session("a");

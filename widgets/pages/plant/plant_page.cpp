@@ -576,28 +576,22 @@ void PlantPage::publish() {
   if (!session_.isOpen()) return;
   try {
     const PlantAddress address = PlantAddress::parse(addressText().toStdString());
-    std::vector<std::int64_t> ids;
-    for (const CampaignRecord& record : session_.session()->campaigns()) ids.push_back(record.id);
-    auto publication = std::make_shared<Publication>(beginPublication(*session_.session(), ids, address));
+    std::vector<CampaignSource> sources;
+    for (const CampaignRecord& record : session_.session()->campaigns())
+      sources.push_back(CampaignSource::of(*session_.session(), record.id));
     Job job;
     job.title = tr("Publishing to the plant store");
-    job.work = [this, publication, address, folder = session_.folder()](JobContext& context) -> std::function<void()> {
-      const PublishOutcome outcome = sendPublication(*publication, address, {}, context);
-      return [this, publication, outcome, folder] {
-        if (session_.isOpen() && session_.folder() == folder)
-          endPublication(*session_.session(), *publication, outcome);
-        if (outcome.waiting > 0) {
-          callout_->show(Tone::Attention, tr("%1 waiting in the session until the next publishing. %2")
-                                              .arg(coreSentence(countOf(outcome.waiting, "campaign")))
-                                              .arg(coreSentence(outcome.reason)));
-          return;
+    job.work = [this, sources = std::move(sources), address,
+                folder = session_.folder()](JobContext& context) -> std::function<void()> {
+      std::vector<CampaignState> read;
+      for (const CampaignSource& source : sources) read.push_back(CampaignState::read(source, context));
+      return [this, read = std::move(read), address, folder] {
+        if (!session_.isOpen() || session_.folder() != folder) return;
+        try {
+          send(std::make_shared<Publication>(beginPublication(*session_.session(), read, address)), address);
+        } catch (const InputError& e) {
+          fail(coreSentence(e.what()));
         }
-        notice_ = {Tone::Good, tr("Published: new %1 and %2; there already %3 and %4.")
-                                   .arg(coreSentence(countOf(outcome.count.campaigns_new, "campaign")),
-                                        coreSentence(countOf(outcome.count.results_new, "result")),
-                                        coreSentence(countOf(outcome.count.campaigns_there, "campaign")),
-                                        coreSentence(countOf(outcome.count.results_there, "result")))};
-        refresh();
       };
     };
     job.failed = [this](const QString& sentence) { fail(sentence); };
@@ -605,6 +599,31 @@ void PlantPage::publish() {
   } catch (const InputError& e) {
     fail(coreSentence(e.what()));
   }
+}
+
+void PlantPage::send(const std::shared_ptr<Publication>& publication, const PlantAddress& address) {
+  Job job;
+  job.title = tr("Publishing to the plant store");
+  job.work = [this, publication, address, folder = session_.folder()](JobContext& context) -> std::function<void()> {
+    const PublishOutcome outcome = sendPublication(*publication, address, {}, context);
+    return [this, publication, outcome, folder] {
+      if (session_.isOpen() && session_.folder() == folder) endPublication(*session_.session(), *publication, outcome);
+      if (outcome.waiting > 0) {
+        callout_->show(Tone::Attention, tr("%1 waiting in the session until the next publishing. %2")
+                                            .arg(coreSentence(countOf(outcome.waiting, "campaign")))
+                                            .arg(coreSentence(outcome.reason)));
+        return;
+      }
+      notice_ = {Tone::Good, tr("Published: new %1 and %2; there already %3 and %4.")
+                                 .arg(coreSentence(countOf(outcome.count.campaigns_new, "campaign")),
+                                      coreSentence(countOf(outcome.count.results_new, "result")),
+                                      coreSentence(countOf(outcome.count.campaigns_there, "campaign")),
+                                      coreSentence(countOf(outcome.count.results_there, "result")))};
+      refresh();
+    };
+  };
+  job.failed = [this](const QString& sentence) { fail(sentence); };
+  jobs_.run(std::move(job));
 }
 
 }  // namespace spindrift::gui

@@ -24,6 +24,10 @@ class QPushButton;
 class QTabWidget;
 class QTableView;
 
+namespace spindrift {
+struct Publication;
+}
+
 namespace spindrift::gui {
 
 class BatchesPanel;
@@ -84,6 +88,7 @@ class PlantPage : public QWidget {
   void compareChecked();
   void enterEvent();
   [[nodiscard]] QStringList chosenMachines() const;
+  void send(const std::shared_ptr<Publication>& publication, const PlantAddress& address);
   void fail(const QString& sentence);
   [[nodiscard]] QString addressText() const;
 
