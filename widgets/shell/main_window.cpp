@@ -638,6 +638,14 @@ void MainWindow::importInBackground(const QString& title, std::function<std::fil
       giveGoals(**session, id);
       auto loaded = std::make_shared<LoadedSession>(loadSession(std::move(*session), id));
       return [this, loaded, folder] {
+        const QString work = session_.isOpen() ? jobs_.firstOf(JobQueue::Work) : QString();
+        if (!work.isEmpty()) {  // begun while this ran
+          remember(QString::fromStdString(folder.string()));
+          tell(tr("%1 is imported. \"%2\" is still running here, so it is not opened: it stands among the recent "
+                  "sessions.")
+                   .arg(QString::fromStdString(folder.filename().string()), work));
+          return;
+        }
         finishRecording();
         session_.adopt(std::move(*loaded));
         remember(QString::fromStdString(folder.string()));

@@ -6,6 +6,7 @@
 #include <QApplication>
 #include <QMessageBox>
 #include <QPushButton>
+#include <QSettings>
 #include <QTableView>
 #include <QTest>
 #include <QTimer>
@@ -380,6 +381,27 @@ TEST_F(CampaignsTest, AFileThatWasChangedWhileTheSessionWasClosedIsSaidAndItsRes
   EXPECT_FALSE(session().state("fit").current);
   EXPECT_EQ(session().state("fit").changed, QStringLiteral("files of the campaign"));
   EXPECT_EQ(window_->workflow().status(StepId::Model).state, StepState::Outdated);
+}
+
+TEST_F(CampaignsTest, AnImportEndsNoWorkThatWasBegunMeanwhile) {
+  openTwo();
+  const std::int64_t number = session().sessionNumber();
+  window_->open(QString::fromStdString((folder_ / "other").string()));
+  bool done = false, cancelled = false;
+  Job job;
+  job.title = QStringLiteral("Begun meanwhile");
+  job.work = [&done](JobContext&) -> std::function<void()> { return [&done] { done = true; }; };
+  job.cancelled = [&cancelled] { cancelled = true; };
+  window_->jobs().run(std::move(job));
+  wait();
+  EXPECT_TRUE(done);
+  EXPECT_FALSE(cancelled);
+  EXPECT_EQ(session().sessionNumber(), number);
+  const QStringList recent = QSettings().value(QStringLiteral("recent")).toStringList();
+  ASSERT_FALSE(recent.isEmpty());
+  EXPECT_TRUE(Session::isSession(recent.front().toStdString()));
+  EXPECT_NE(recent.front().toStdString(), session().folder().string()) << "to be opened when the work is done";
+  sessions_.emplace_back(recent.front().toStdString());
 }
 
 TEST_F(CampaignsTest, LeavingTheSessionAsksWhileWorkRuns) {
