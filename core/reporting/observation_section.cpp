@@ -34,6 +34,17 @@ struct Change {
   double sigma = 0.0;
 };
 
+/// What stands at another angle of the table is another place on it: readings of one point at several angles are told
+/// apart by their names, and no change is from one angle to another.
+ObservationSet placesOf(const ObservationSet& observations) {
+  std::map<std::string, std::set<double>> angles;
+  for (const Observation& o : observations.rows) angles[o.point].insert(o.c_deg);
+  ObservationSet places = observations;
+  for (Observation& o : places.rows)
+    if (angles.at(o.point).size() > 1) o.point = fmt::format("{}, C {:g}°", o.point, o.c_deg);
+  return places;
+}
+
 /// In order of time within each point and component; the first of each is zero by definition and not among them.
 std::vector<Change> changesOf(const ObservationSet& observations) {
   const auto& rows = observations.rows;
@@ -107,13 +118,22 @@ void addChangeTable(Report& document, const std::vector<std::string>& states, co
   document.table(header, rows, "Change of each point from its first reading, value ± one standard uncertainty");
 }
 
+/// Displacements in one state with the table at one angle, ready for a map.
+struct MapContent {
+  std::map<std::string, PointDisplacement, NaturalOrder> points;
+  std::set<std::string> references;
+};
+
 void addMaps(Report& document, const std::vector<std::string>& states, const std::vector<Change>& changes) {
-  for (std::size_t s = 0; s < std::min(states.size(), most_maps); ++s) {
-    std::map<std::string, PointDisplacement, NaturalOrder> points;
-    std::set<std::string> references;
+  std::set<double> angles;
+  for (const Change& c : changes) angles.insert(c.row->c_deg);
+  std::size_t maps = 0;
+  for (const std::string& state : states) {
+    std::map<double, MapContent> of_angle;
     for (const Change& c : changes) {
-      if (c.row->state != states[s] || isRotation(c.row->component)) continue;
-      PointDisplacement& p = points[c.row->point];
+      if (c.row->state != state || isRotation(c.row->component)) continue;
+      MapContent& map = of_angle[c.row->c_deg];
+      PointDisplacement& p = map.points[c.row->point];
       if (p.point.empty()) {
         p.point = c.row->point;
         p.change_um.setConstant(std::nan(""));
@@ -121,17 +141,24 @@ void addMaps(Report& document, const std::vector<std::string>& states, const std
       }
       p.change_um[axisIndex(c.row->component)] = c.value;
       p.sigma_um[axisIndex(c.row->component)] = c.sigma;
-      references.insert(c.first->state);
+      map.references.insert(c.first->state);
     }
-    std::vector<PointDisplacement> list;
-    for (auto& [name, point] : points) list.push_back(std::move(point));
-    const std::string from = references.size() == 1 ? "state " + *references.begin() : "its first reading";
-    if (const auto drawing =
-            pointMap(list, {.title = fmt::format("Displacement in state {}", states[s]),
-                            .subtitle = fmt::format("change of the tool relative to the table from {}", from)}))
+    for (const auto& [c_deg, map] : of_angle) {
+      if (maps == most_maps) return;
+      std::vector<PointDisplacement> list;
+      for (const auto& [name, point] : map.points) list.push_back(point);
+      const std::string from =
+          map.references.size() == 1 ? "state " + *map.references.begin() : std::string("its first reading");
+      const std::string where = angles.size() > 1 ? fmt::format("{}, table at {:g}°", state, c_deg) : state;
+      const auto drawing =
+          pointMap(list, {.title = fmt::format("Displacement in state {}", where),
+                          .subtitle = fmt::format("change of the tool relative to the table from {}", from)});
+      if (!drawing) continue;
       document.figure(*drawing, fmt::format("Measured displacement of the points in state {}, from {}: arrows X and Y, "
                                             "colour and number Z in µm",
-                                            states[s], from));
+                                            where, from));
+      ++maps;
+    }
   }
 }
 
@@ -227,7 +254,8 @@ PanelGrid PanelGrid::of(std::size_t panels) {
   return {2, 428, 200};
 }
 
-std::vector<LargestChange> largestChanges(const ObservationSet& observations) {
+std::vector<LargestChange> largestChanges(const ObservationSet& measured) {
+  const ObservationSet observations = placesOf(measured);
   std::map<Component, LargestChange> largest;
   for (const Change& c : changesOf(observations)) {
     LargestChange& most = largest[c.row->component];
@@ -247,16 +275,17 @@ void addObservations(Report& document, const ObservationSet& observations) {
                   "relative to the table, up to a constant per point and component; shown is the change from the first "
                   "reading of each point.",
                   observations.rows.size(), observations.points().size(), observations.states().size()));
-  const std::vector<Change> changes = changesOf(observations);
+  const ObservationSet places = placesOf(observations);
+  const std::vector<Change> changes = changesOf(places);
   if (changes.empty()) {
     document.callout(CalloutKind::Note, "Every point was read once only: there is no change to show.");
-  } else if (medianCount(observations) < least_for_curves) {
-    const std::vector<std::string> states = statesOf(observations, changes);
+  } else if (medianCount(places) < least_for_curves) {
+    const std::vector<std::string> states = statesOf(places, changes);
     addMaps(document, states, changes);
     addChangeTable(document, states, changes);
   } else {
-    addPanels(document, observations, changes, false);
-    addPanels(document, observations, changes, true);
+    addPanels(document, places, changes, false);
+    addPanels(document, places, changes, true);
   }
 }
 

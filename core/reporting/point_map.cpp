@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "core/base/text.h"
 #include "core/base/units.h"
@@ -61,6 +62,27 @@ double roundDown(double value) {
   for (const double factor : {5.0, 2.0})
     if (factor * power <= value) return factor * power;
   return power;
+}
+
+/// How many times as long arrows may be drawn so that each, with the bars at its tip, ends inside the frame.
+double factorInside(const std::vector<PointDisplacement>& points, const MapView& v) {
+  constexpr double room_px = 6.0;  ///< for the head of an arrow
+  double factor = std::numeric_limits<double>::infinity();
+  for (const PointDisplacement& p : points) {
+    if (!std::isfinite(p.change_um.x()) || !std::isfinite(p.change_um.y())) continue;
+    const double x = v.px(p.position_mm.x()) - v.left, y = v.py(p.position_mm.y()) - v.top;
+    const std::array<double, 2> before{x - room_px, v.height - y - room_px};
+    const std::array<double, 2> behind{v.width - x - room_px, y - room_px};
+    for (int i = 0; i < 2; ++i) {
+      const double bar_um = coverage * p.sigma_um[i];
+      const auto limit = [&](double reach_um, double room) {
+        if (reach_um > 0.0) factor = std::min(factor, room * um_per_mm / (reach_um * v.px_per_mm));
+      };
+      limit(bar_um - p.change_um[i], before[static_cast<std::size_t>(i)]);
+      limit(bar_um + p.change_um[i], behind[static_cast<std::size_t>(i)]);
+    }
+  }
+  return factor;
 }
 
 void drawMapAxes(Drawing& canvas, const MapView& v) {
@@ -154,7 +176,8 @@ std::optional<Drawing> pointMap(const std::vector<PointDisplacement>& points, co
   if (!(spread > 0.0)) return std::nullopt;
   const MapView view = viewOf(points, options.width_px);
   const double limit = roundLimit(highest);
-  const double factor = longest > 0.0 ? roundDown(view.width / 6.0 / view.px_per_mm * um_per_mm / longest) : 1.0;
+  const double sixth = view.width / 6.0 / view.px_per_mm * um_per_mm;
+  const double factor = longest > 0.0 ? roundDown(std::min(sixth / longest, factorInside(points, view))) : 1.0;
   Drawing canvas(options.width_px, std::round(view.top + view.height + 78.0));
   canvas.text(16.0, 26.0, options.title, 16.0, TextAnchor::Start, true);
   canvas.text(16.0, 46.0, options.subtitle, 12.0, TextAnchor::Start);

@@ -26,8 +26,8 @@ struct PointMapOptions {
   int width_px = 820;
 };
 
-/// How much arrows are exaggerated is written below, a round factor for which the longest is
-/// about a sixth of the picture. Nothing if fewer than two points differ in place.
+/// How much arrows are exaggerated is written below, a round factor for which the longest is no more than about a sixth
+/// of the picture and each ends, with its bars, inside the frame. Nothing if fewer than two points differ in place.
 [[nodiscard]] std::optional<Drawing> pointMap(const std::vector<PointDisplacement>& points,
                                               const PointMapOptions& options);
 

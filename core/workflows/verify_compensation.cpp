@@ -22,7 +22,8 @@ namespace {
 
 constexpr double coverage = 2.0;
 
-using SeriesKey = std::pair<std::string, Component>;
+/// Point, component and angle of the table (deg): what stands at another angle is another place.
+using SeriesKey = std::pair<std::string, std::pair<Component, double>>;
 
 struct Value {
   double value = 0.0;
@@ -45,12 +46,13 @@ std::map<SeriesKey, Course, NaturalOrder> coursesOf(const ObservationSet& set) {
     if (o.use != ObservationUse::Exclude) rows.push_back(&o);
   std::stable_sort(rows.begin(), rows.end(), [](auto* a, auto* b) { return a->time_s < b->time_s; });
   std::map<SeriesKey, Course, NaturalOrder> out;
-  std::map<std::tuple<std::string, Component, std::string>, double> weight;
+  std::map<std::pair<SeriesKey, std::string>, double> weight;
   for (const Observation* o : rows) {
-    Course& course = out[{o->point, o->component}];
+    const SeriesKey key{o->point, {o->component, o->c_deg}};
+    Course& course = out[key];
     if (!course.values.contains(o->state)) course.states.push_back(o->state);
     Value& v = course.values[o->state];
-    double& w = weight[{o->point, o->component, o->state}];
+    double& w = weight[{key, o->state}];
     const double add = 1.0 / (o->sigma * o->sigma);
     v.value = (v.value * w + o->value * add) / (w + add);
     w += add;
@@ -265,9 +267,10 @@ VerifyResult verifyCompensation(const ObservationSet& before, const ObservationS
     for (std::size_t k = 1; k < states; ++k) {
       const Value& a = course.values.at(course.states[k]);
       const Value& b = other->second.values.at(other->second.states[k]);
-      result.points.push_back({key.first, other->second.states[k], b.position_mm, key.second, a.value - zero.value,
+      const auto [component, c_deg] = key.second;
+      result.points.push_back({key.first, other->second.states[k], b.position_mm, component, a.value - zero.value,
                                std::sqrt(a.variance + zero.variance), b.value - other_zero.value,
-                               std::sqrt(b.variance + other_zero.variance)});
+                               std::sqrt(b.variance + other_zero.variance), c_deg});
     }
   }
   for (const auto& [key, course] : second) missing += first.contains(key) ? 0U : 1U;

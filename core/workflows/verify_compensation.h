@@ -60,6 +60,7 @@ struct VerifyPoint {
   double before_sigma = 0.0;
   double after = 0.0;
   double after_sigma = 0.0;
+  double c_deg = 0.0;  ///< angle of the table
 };
 
 /// rms with the measuring noise taken out, and the largest |value|, of some compared values (um or urad). All changes

@@ -2,6 +2,8 @@
 #include "core/workflows/verify_map.h"
 
 #include <cmath>
+#include <map>
+#include <set>
 
 #include "core/machine/interpolated_field.h"
 #include "core/workflows/fit_campaign.h"
@@ -27,19 +29,32 @@ std::optional<Field> mapOf(const std::vector<Field::Marker>& points, const Machi
 
 }  // namespace
 
+std::vector<VerifyPose> posesOf(const VerifyResult& result) {
+  std::vector<std::string> states;
+  std::map<std::string, std::set<double>> angles;
+  for (const VerifyPoint& p : result.points) {
+    if (!angles.contains(p.state)) states.push_back(p.state);
+    angles[p.state].insert(p.c_deg);
+  }
+  std::vector<VerifyPose> poses;
+  for (const std::string& state : states)
+    for (const double c_deg : angles.at(state)) poses.push_back({state, c_deg});
+  return poses;
+}
+
 VerifyMap verifyMap(const VerifyResult& result, const MachineDescription& machine, Component component,
-                    const std::string& state) {
+                    const std::optional<VerifyPose>& pose) {
   VerifyMap map;
   map.component = component;
-  map.state = state;
+  if (pose) map.pose = *pose;
   double worst = -1.0;
   for (const VerifyPoint& p : result.points) {
-    if (!state.empty() || p.component != component || std::abs(p.after) <= worst) continue;
+    if (pose || p.component != component || std::abs(p.after) <= worst) continue;
     worst = std::abs(p.after);
-    map.state = p.state;
+    map.pose = {p.state, p.c_deg};
   }
   for (const VerifyPoint& p : result.points) {
-    if (p.component != component || p.state != map.state) continue;
+    if (p.component != component || VerifyPose{p.state, p.c_deg} != map.pose) continue;
     map.points[0].push_back({p.point, p.position_mm, p.before, p.before_sigma, true});
     map.points[1].push_back({p.point, p.position_mm, p.after, p.after_sigma, true});
   }

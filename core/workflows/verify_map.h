@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What was left before and after compensating, over the table, for one thermal state and component. Between the points
-// the values are interpolated with their uncertainty (core/machine/interpolated_field.h). um or urad, mm in MCF.
+// What was left before and after compensating, over the table, for one thermal state, angle of the table and component.
+// Between the points the values are interpolated with their uncertainty (core/machine/interpolated_field.h). um or
+// urad, mm in MCF.
 #pragma once
 
 #include <array>
@@ -14,15 +15,25 @@
 
 namespace spindrift {
 
-/// The values of one state and component, before (0) and after (1), ready to be drawn.
+/// A thermal state with the table at one angle, deg: points at another angle are elsewhere on it and make another map.
+struct VerifyPose {
+  std::string state;
+  double c_deg = 0.0;
+  [[nodiscard]] bool operator==(const VerifyPose&) const = default;
+};
+
+/// Of a comparison, in order of the states, then of the angles.
+[[nodiscard]] std::vector<VerifyPose> posesOf(const VerifyResult& result);
+
+/// The values of one pose and component, before (0) and after (1), ready to be drawn.
 struct VerifyMap {
   Component component = Component::EX;
-  std::string state;
+  VerifyPose pose;
   std::array<std::vector<Field::Marker>, 2> points;
   std::array<std::optional<Field>, 2> fields;  ///< empty where the points span no plane
 };
-/// Any thread. `state` empty: the one with the largest value after compensating.
+/// Any thread. Without a pose: the one with the largest value after compensating.
 [[nodiscard]] VerifyMap verifyMap(const VerifyResult& result, const MachineDescription& machine, Component component,
-                                  const std::string& state);
+                                  const std::optional<VerifyPose>& pose);
 
 }  // namespace spindrift

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "core/reporting/plot_picture.h"
+#include "core/reporting/point_map.h"
 #include "core/reporting/report_parts.h"
 
 namespace spindrift {
@@ -52,6 +53,76 @@ TEST(ObservationSection, TwoStatesAreArrowsOverTheTableAndATable) {
   EXPECT_THAT(text, HasSubstr("<td>−1.0 ± 0.4</td>"));
   EXPECT_EQ(count(text, "<circle"), 4U) << "one disc a point";
   EXPECT_THAT(text, Not(HasSubstr("over time")));
+}
+
+TEST(ObservationSection, EveryAngleOfTheTableHasAMapOfItsOwn) {
+  // F1 and F2 at 0 and at 90 degrees, F3 and F4 at 90 degrees only; F1 moves otherwise there.
+  ObservationSet set = observations(2);
+  const std::size_t all = set.rows.size();
+  for (std::size_t i = 0; i < all; ++i) {
+    if (set.rows[i].point == "F3" || set.rows[i].point == "F4") {
+      set.rows[i].c_deg = 90.0;
+      continue;
+    }
+    Observation turned = set.rows[i];
+    turned.c_deg = 90.0;
+    if (turned.state == "M1") turned.value += 40.0;
+    set.rows.push_back(turned);
+  }
+  const std::string text = html(set);
+  EXPECT_EQ(count(text, "<figure>"), 2U);
+  EXPECT_THAT(text, HasSubstr("Displacement in state M1, table at 0°"));
+  EXPECT_THAT(text, HasSubstr("Displacement in state M1, table at 90°"));
+  EXPECT_EQ(count(text, "<circle"), 2U + 4U) << "each of the points of its angle";
+  EXPECT_THAT(text, HasSubstr("F1, C 0°: 3.0 ± 0.4"));
+  EXPECT_THAT(text, HasSubstr("F1, C 90°: 43.0 ± 0.4")) << "changed from its reading at the same angle";
+  EXPECT_THAT(text, HasSubstr("F3: 3.0 ± 0.4")) << "one angle needs no name";
+}
+
+TEST(ObservationSection, ArrowsEndInsideTheFrameOfTheMap) {
+  // The longest arrow, with its bars, points out of the map in every direction in turn.
+  for (const Eigen::Vector2d& out : {Eigen::Vector2d(1, 0), Eigen::Vector2d(-1, 0), Eigen::Vector2d(0, 1),
+                                     Eigen::Vector2d(0, -1), Eigen::Vector2d(1, 1), Eigen::Vector2d(-1, -1)}) {
+    std::vector<PointDisplacement> points;
+    for (int p = 0; p < 4; ++p)
+      points.push_back({"F" + std::to_string(p + 1),
+                        {100.0 * (p % 2), 100.0 * (p / 2), 0.0},
+                        {10.0 * out.x(), 10.0 * out.y(), 1.0},
+                        {2.0, 2.0, 0.3}});
+    const std::optional<Drawing> drawing = pointMap(points, {.title = "t", .subtitle = "s"});
+    ASSERT_TRUE(drawing.has_value());
+    // The frame is drawn first, in grey: its lines bound what is drawn in grey and ink, width 2 and 1, after it.
+    double left = 1e9, right = -1e9, top = 1e9, bottom = -1e9;
+    std::size_t frame = 0;
+    const auto& shapes = drawing->shapes();
+    for (std::size_t i = 0; i < shapes.size(); ++i) {
+      const auto* path = std::get_if<Drawing::Path>(&shapes[i]);
+      if (path == nullptr || frame == 4 || path->paint.stroke != PictureColour{120, 130, 140}) continue;
+      for (const auto& stroke : path->strokes)
+        for (const auto& [x, y] : stroke) {
+          left = std::min(left, x), right = std::max(right, x);
+          top = std::min(top, y), bottom = std::max(bottom, y);
+        }
+      ++frame;
+    }
+    ASSERT_EQ(frame, 4U);
+    std::size_t strokes = 0;
+    for (const auto& shape : shapes) {
+      const auto* path = std::get_if<Drawing::Path>(&shape);
+      if (path == nullptr) continue;
+      for (const auto& stroke : path->strokes)
+        for (const auto& [x, y] : stroke) {
+          // Ticks of the colour bar stand at the right, the scale of the arrows below.
+          if (x > right + 20.0 || y > bottom + 20.0) continue;
+          ++strokes;
+          EXPECT_GE(x, left - 0.01);
+          EXPECT_LE(x, right + 0.01);
+          EXPECT_GE(y, top - 0.01);
+          EXPECT_LE(y, bottom + 0.01);
+        }
+    }
+    EXPECT_GT(strokes, 40U);
+  }
 }
 
 TEST(ObservationSection, StatesStandInTheOrderOfTime) {

@@ -8,6 +8,7 @@
 #include "core/base/error.h"
 #include "core/base/random.h"
 #include "core/workflows/compensated_data.h"
+#include "core/workflows/verify_map.h"
 
 namespace spindrift {
 namespace {
@@ -62,6 +63,29 @@ TEST(Verify, PointsThatStandElsewhereAreNotCompared) {
   EXPECT_NE(result.notes[0].find("P3 stood more than 1 mm elsewhere"), std::string::npos) << result.notes[0];
   for (Observation& o : after.rows) o.position_mm.y() += 20.0;
   EXPECT_THROW((void)verifyCompensation(before, after, {}), InputError);
+}
+
+TEST(Verify, AngleOfTheTableIsPartOfAPlace) {
+  // Every point at 0 and at 90 degrees, where it grows the other way: the mean of both would be nothing.
+  const auto atTwoAngles = [](ObservationSet set) {
+    for (std::size_t i = 0, all = set.rows.size(); i < all; ++i) {
+      Observation turned = set.rows[i];
+      turned.c_deg = 90.0;
+      turned.value = -turned.value;
+      set.rows.push_back(turned);
+    }
+    return set;
+  };
+  const VerifyResult result =
+      verifyCompensation(atTwoAngles(measured(30.0, 0.2, 1)), atTwoAngles(measured(2.0, 0.2, 2)), {});
+  EXPECT_EQ(result.components.at(0).values, 2U * 24U);
+  EXPECT_NEAR(result.components.at(0).before.largest, 30.0, 1.0);
+  const std::vector<VerifyPose> poses = posesOf(result);
+  ASSERT_EQ(poses.size(), 6U) << "three states at two angles";
+  EXPECT_EQ(poses[1], (VerifyPose{"M1", 90.0}));
+  const VerifyMap map = verifyMap(result, {}, Component::EX, poses[1]);
+  EXPECT_EQ(map.points[0].size(), 8U) << "each point once";
+  for (const Field::Marker& p : map.points[0]) EXPECT_LT(p.value, 0.0) << p.point;
 }
 
 TEST(Verify, MachinesOfDifferentNamesAreSaid) {

@@ -312,10 +312,7 @@ void VerifyPage::showResult() {
   verdict_->set(wordOf(result_->verdict), tr("goal %1 µm").arg(decimalText(result_->request.goal_um, 'g', 3)),
                 toneOf(result_->verdict));
   if (component_->findText(chosen) >= 0) component_->setCurrentText(chosen);
-  QStringList states;
-  for (const VerifyPoint& p : result_->points)
-    if (!states.contains(fromCore(p.state))) states << fromCore(p.state);
-  maps_->setStates(states);
+  maps_->setPoses(posesOf(*result_));
   showPlot();
   showMaps();
 }
@@ -327,9 +324,9 @@ void VerifyPage::showMaps() {
   if (!component) return;
   const double goal = result_->goal(*component);
   display(tr("Drawing before and after"),
-          [this, result = result_, campaign = session().campaign(), component = *component, state = maps_->state(),
+          [this, result = result_, campaign = session().campaign(), component = *component, pose = maps_->pose(),
            goal](JobContext&) -> std::function<void()> {
-            auto map = std::make_shared<VerifyMap>(verifyMap(*result, campaign->machine, component, state));
+            auto map = std::make_shared<VerifyMap>(verifyMap(*result, campaign->machine, component, pose));
             return [this, result, campaign, map, goal] {
               if (result == result_) maps_->show(*map, campaign->machine, goal);
             };

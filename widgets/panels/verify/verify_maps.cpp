@@ -41,17 +41,25 @@ VerifyMaps::VerifyMaps(QWidget* parent) : QWidget(parent) {
   connect(state_, &QComboBox::activated, this, [this](int) { Q_EMIT stateChosen(); });
 }
 
-void VerifyMaps::setStates(const QStringList& states) {
+QString VerifyMaps::nameOf(const VerifyPose& pose) const {
+  const bool one = std::all_of(poses_.begin(), poses_.end(),
+                               [&](const VerifyPose& other) { return other.c_deg == poses_.front().c_deg; });
+  return one ? fromCore(pose.state) : tr("%1, table at %2°").arg(fromCore(pose.state), decimalText(pose.c_deg, 'g', 6));
+}
+
+void VerifyMaps::setPoses(std::vector<VerifyPose> poses) {
   const QString chosen = state_->currentIndex() > 0 ? state_->currentText() : QString();
   const QSignalBlocker quiet(state_);
+  poses_ = std::move(poses);
   state_->clear();
   state_->addItem(tr("The worst after compensating"));
-  state_->addItems(states);
+  for (const VerifyPose& pose : poses_) state_->addItem(nameOf(pose));
   state_->setCurrentIndex(std::max(0, state_->findText(chosen)));
 }
 
-std::string VerifyMaps::state() const {
-  return state_->currentIndex() > 0 ? state_->currentText().toStdString() : std::string();
+std::optional<VerifyPose> VerifyMaps::pose() const {
+  if (state_->currentIndex() <= 0) return std::nullopt;
+  return poses_[static_cast<std::size_t>(state_->currentIndex() - 1)];
 }
 
 void VerifyMaps::clear() {
@@ -82,7 +90,7 @@ void VerifyMaps::show(const VerifyMap& map, const MachineDescription& machine, d
       points.push_back(std::move(v));
     }
     view->setPoints(std::move(points));
-    view->setCaption((side == 0 ? tr("Before: %1 in %2") : tr("After: %1 in %2")).arg(name, fromCore(map.state)));
+    view->setCaption((side == 0 ? tr("Before: %1 in %2") : tr("After: %1 in %2")).arg(name, nameOf(map.pose)));
   }
 }
 

@@ -141,7 +141,7 @@ TEST_F(VerifyPages, BeforeAndAfterStandOnTheTableWithOneScale) {
   maps->stateChoice()->setCurrentText(QStringLiteral("M40"));
   Q_EMIT maps->stateChoice()->activated(maps->stateChoice()->currentIndex());
   ASSERT_TRUE(waitForJobs(*window_, 30));
-  EXPECT_EQ(maps->state(), "M40");
+  EXPECT_EQ(maps->pose(), (VerifyPose{"M40", 0.0}));
   for (const VerifyPoint& p : page->result()->points) {
     if (p.state == "M40" && p.point == "F1") {
       EXPECT_EQ(*maps->view(0)->points().front().value, p.before);
