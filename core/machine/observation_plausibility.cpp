@@ -281,4 +281,20 @@ std::string outsideTravel(const ObservationSet& observations, const MachineDescr
       outside.size(), observations.points().size(), example);
 }
 
+std::vector<std::string> pointsOutsideTravel(const MachineDescription& machine) {
+  constexpr double rounding_mm = 1e-9;
+  std::vector<std::string> sentences;
+  for (const MachinePoint& point : machine.points) {
+    for (int i = 0; i < 3; ++i) {
+      const LinearAxis* axis = machine.findAxis(std::string(1, "XYZ"[i]));
+      if (axis == nullptr) continue;
+      const double p = point.position_mm[i];
+      if (p >= axis->travel_mm[0] - rounding_mm && p <= axis->travel_mm[1] + rounding_mm) continue;
+      sentences.push_back(fmt::format("Point {} lies outside the travel of axis {} ({:g} mm; travel {:g} to {:g} mm).",
+                                      point.id, axis->name, p, axis->travel_mm[0], axis->travel_mm[1]));
+    }
+  }
+  return sentences;
+}
+
 }  // namespace spindrift

@@ -43,4 +43,7 @@ void refusePositionsInMetres(const ObservationSet& observations, const MachineDe
 /// another unit, or columns that were swapped. Empty otherwise.
 [[nodiscard]] std::string outsideTravel(const ObservationSet& observations, const MachineDescription& machine);
 
+/// One sentence for every point of the description that an axis cannot reach (mm).
+[[nodiscard]] std::vector<std::string> pointsOutsideTravel(const MachineDescription& machine);
+
 }  // namespace spindrift

@@ -474,7 +474,7 @@ ProfilerCalibration calibrationOf(const Campaign& campaign, const ProfilerDescri
       for (std::size_t i = 0; i < 3; ++i) circle[i] = centre[static_cast<Eigen::Index>(i)];
       const ProfilerCalibration c = calibrateProfiler(readCloud(cloud), circle, options);
       if (c.usable()) {
-        if (!c.message.empty()) warnings.push_back(calibrationWarning(c));
+        if (!c.message.empty()) warnings.push_back("Calibration of the profiler: " + c.message);
         return c;
       }
       reason = c.message;
@@ -605,8 +605,8 @@ ScanEvaluation evaluateScanCampaign(const Campaign& campaign, const std::string&
   return evaluation;
 }
 
-std::string calibrationWarning(const ProfilerCalibration& calibration) {
-  return "Calibration of the profiler: " + calibration.message;
+bool isCalibrationWarning(std::string_view warning) {
+  return warning.starts_with("Calibration of the profiler: ");
 }
 
 }  // namespace spindrift

@@ -67,7 +67,8 @@ struct ScanEvaluation {
 [[nodiscard]] ScanEvaluation evaluateScanCampaign(const Campaign& campaign, const std::string& scan_model,
                                                   JobContext& job);
 
-/// Among the warnings of an evaluation: what its calibration could not determine.
-[[nodiscard]] std::string calibrationWarning(const ProfilerCalibration& calibration);
+/// Whether a warning of an evaluation says what its calibration could not determine: no fault by itself, another one
+/// says where it matters.
+[[nodiscard]] bool isCalibrationWarning(std::string_view warning);
 
 }  // namespace spindrift

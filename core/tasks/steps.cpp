@@ -13,7 +13,10 @@
 #include "core/base/csv.h"
 #include "core/base/error.h"
 #include "core/machine/observation.h"
+#include "core/machine/observation_plausibility.h"
 #include "core/scanning/painted_mask.h"
+#include "core/scanning/registration.h"
+#include "core/scanning/scan_evaluation.h"
 #include "core/tasks/task_options.h"
 #include "core/workflows/instrument_checks.h"
 #include "core/workflows/measurement_plan.h"
@@ -49,6 +52,16 @@ StepReport ofTask(const TaskGraph& graph, const std::string& task, const char* h
       break;
   }
   return report(StepState::Current, {});
+}
+
+/// A step that is done, or asks for attention with the first of what its result warns of.
+StepReport done(const char* sentence, const std::vector<std::string>& warnings) {
+  if (warnings.empty()) return report(StepState::Current, sentence);
+  return report(StepState::Attention, warnings.front());
+}
+
+std::vector<std::string> warningsOf(const nlohmann::json& result) {
+  return result.value("warnings", std::vector<std::string>());
 }
 
 std::set<std::string> excludedItems(const TaskGraph& graph) {
@@ -157,13 +170,13 @@ StepReport calibrate(const TaskGraph& graph, const CaptureCounts& counts) {
                         std::max(counts.listed, rejected)),
             rejected, std::max(counts.listed, rejected)};
   }
-  if (!payload.value("good_enough", true)) {
-    const nlohmann::json warnings = details.value("warnings", nlohmann::json::array());
-    return report(StepState::Attention,
-                  warnings.empty() ? "The result is not good enough." : warnings.front().get<std::string>());
-  }
-  step.sentence = "Captures are evaluated.";
-  return step;
+  std::vector<std::string> warnings = warningsOf(details);
+  if (!payload.value("good_enough", true))
+    return warnings.empty() ? report(StepState::Attention, "The result is not good enough.") : done("", warnings);
+  // What the calibration of a profiler cannot determine stands beside its numbers; where it matters, another warning
+  // says so.
+  std::erase_if(warnings, isCalibrationWarning);
+  return done("Captures are evaluated.", warnings);
 }
 
 StepReport model(const TaskGraph& graph) {
@@ -187,8 +200,16 @@ StepReport model(const TaskGraph& graph) {
     return report(StepState::Attention,
                   "The model is fitted, but does not describe this state, or a point is disturbed: its residuals are "
                   "larger than the stated uncertainties allow.");
-  step.sentence = "The model is fitted.";
-  return step;
+  if (facts.scans && payload.contains("scan_model")) {
+    const auto& profiler = graph.data().machine.profiler;
+    const std::string of_machine = profiler ? profiler->scan_model : std::string(toString(ScanModel::Rigid));
+    if (payload["scan_model"] != of_machine)
+      return report(StepState::Attention,
+                    fmt::format("The machine description says that its scans are {}. Under another scan model the "
+                                "errors are wrong by more than they say.",
+                                printedName(scanModelFromString(of_machine))));
+  }
+  return done("The model is fitted.", warningsOf(payload));
 }
 
 StepReport discrepancy(const TaskGraph& graph) {
@@ -206,10 +227,8 @@ StepReport compensate(const TaskGraph& graph) {
   const char* task = log_only ? "log-compensation" : "compensation";
   StepReport step = ofTask(graph, task, log_only ? "Run the compensator over the log." : "Calculate the compensation.");
   if (step.state != StepState::Current) return step;
-  const nlohmann::json warnings = graph.latest(task)->payload.value("warnings", nlohmann::json::array());
-  if (!warnings.empty()) return report(StepState::Attention, warnings.front().get<std::string>());
-  step.sentence = log_only ? "The compensator was run over the log." : "The compensation is calculated.";
-  return step;
+  return done(log_only ? "The compensator was run over the log." : "The compensation is calculated.",
+              warningsOf(graph.latest(task)->payload));
 }
 
 StepReport verify(const TaskGraph& graph) {
@@ -330,6 +349,8 @@ CaptureCounts CaptureCounts::of(const TaskGraph& graph) {
 StepReport stepReport(const TaskGraph& graph, StepId step, const CaptureCounts& counts) {
   switch (step) {
     case StepId::Machine: {
+      if (const std::vector<std::string> outside = pointsOutsideTravel(graph.data().machine); !outside.empty())
+        return report(StepState::Attention, outside.front());
       const nlohmann::json edited =
           graph.session().setting(Session::machineKey(graph.campaign())).value_or(nlohmann::json());
       return report(StepState::Current, edited.empty() ? "As in machine.json." : "Edited in this session.");

@@ -237,7 +237,11 @@ struct FitCycles {
           return evaluation;
         };
   }
-  static nlohmann::json payload(const TouchEvaluation& evaluation) { return cyclesJson(*cyclesOf(&evaluation)); }
+  static nlohmann::json payload(const TouchEvaluation& evaluation) {
+    nlohmann::json payload = cyclesJson(*cyclesOf(&evaluation));
+    payload["warnings"] = cyclesOf(&evaluation)->warnings;
+    return payload;
+  }
 };
 
 struct FitAxisErrors {

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include "core/base/atomic_file.h"
 #include "core/base/job_context.h"
 #include "core/tasks/task_work.h"
 #include "core/workflows/measurement_plan.h"
@@ -124,6 +125,32 @@ TEST(Steps, WhatTheResultSaysIsSaid) {
   EXPECT_EQ(s.step(StepId::Compensate).state, StepState::Attention);
   s.run("verify", {{"verdict", "not met"}, {"reason", "EX is 7 um."}});
   EXPECT_EQ(s.step(StepId::Verify).sentence, "EX is 7 um.");
+}
+
+TEST(Steps, WhatIsDoneWithAWarningAsksForAttention) {
+  TaskSession s;
+  const std::string warning = "M1: 2 of 24 touches are missing; evaluated from the rest.";
+  s.run("evaluate", {{"json", {{"warnings", {warning}}}}, {"good_enough", true}});
+  EXPECT_EQ(s.step(StepId::Calibrate).state, StepState::Attention);
+  EXPECT_EQ(s.step(StepId::Calibrate).sentence, warning);
+  s.run("evaluate", {{"json", {{"warnings", {"Calibration of the profiler: alpha cannot be determined."}}}}});
+  EXPECT_EQ(s.step(StepId::Calibrate).state, StepState::Current) << "stands beside its numbers";
+  s.run("fit", {{"status", "converged"}, {"warnings", {"EX of P3 was not measured and is left out."}}});
+  EXPECT_EQ(s.step(StepId::Model).state, StepState::Attention);
+  EXPECT_EQ(s.step(StepId::Model).sentence, "EX of P3 was not measured and is left out.");
+  s.run("fit", {{"status", "converged"}, {"warnings", nlohmann::json::array()}});
+  EXPECT_EQ(s.step(StepId::Model).state, StepState::Current);
+}
+
+TEST(Steps, APointThatAnAxisCannotReachAsksForAttention) {
+  TaskSession s;
+  EXPECT_EQ(s.step(StepId::Machine).state, StepState::Current);
+  nlohmann::json machine = nlohmann::json::parse(readFile(s.folder_ / "s/campaigns/c/machine.json"));
+  machine["points"] = {{{"id", "P1"}, {"kind", "fiducial"}, {"x_mm", 301.0}, {"y_mm", 0.0}, {"z_mm", 0.0}}};
+  s.folder_.write("s/campaigns/c/machine.json", machine.dump());
+  EXPECT_EQ(s.step(StepId::Machine).state, StepState::Attention);
+  EXPECT_EQ(s.step(StepId::Machine).sentence,
+            "Point P1 lies outside the travel of axis X (301 mm; travel 0 to 300 mm).");
 }
 
 TEST(Steps, BlockedOnesSayWhy) {

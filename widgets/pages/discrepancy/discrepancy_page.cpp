@@ -288,7 +288,8 @@ void DiscrepancyPage::refresh() {
   } else if (!story_->warnings.empty()) {
     QString text = titledSentence(story_->warnings.front());
     if (story_->warnings.size() > 1) text += QLatin1Char(' ') + tr("And %1 more.").arg(story_->warnings.size() - 1);
-    callout()->show(Tone::Attention, text);
+    // Notes of a search that is done; what asks for attention is that nothing explains what was found.
+    callout()->show(story_->verdict == DiscrepancyVerdict::Unknown ? Tone::Attention : Tone::Accent, text);
   } else {
     callout()->set(Tone::Neutral, {});
   }

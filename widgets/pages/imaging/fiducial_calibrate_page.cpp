@@ -143,8 +143,9 @@ void FiducialCalibratePage::refresh() {
   }
   if (!state.current) {
     callout()->show(Tone::Outdated, tr("Changed since this was evaluated: %1. Evaluate again.").arg(state.changed));
-  } else if (!evaluation->good_enough || !evaluation->warnings.empty()) {
+  } else if (!evaluation->good_enough || !evaluation->warnings.empty() || !evaluation->rejected.empty()) {
     QStringList sentences;
+    if (!evaluation->rejected.empty()) sentences << context().workflow.status(step()).sentence;  // how many of how many
     for (const std::string& w : evaluation->warnings) sentences << coreSentence(w);
     callout()->show(Tone::Attention,
                     sentences.mid(0, 2).join(QLatin1Char(' ')) +

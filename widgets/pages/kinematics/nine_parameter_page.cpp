@@ -288,7 +288,7 @@ void NineParameterPage::showFit() {
   if (f.status == FitStatus::Converged) {
     if (order.richer() || !warnings.isEmpty()) warnings += QLatin1Char(' ') + reason;
     if (!warnings.isEmpty()) {
-      callout()->show(Tone::Attention, warnings.trimmed());
+      callout()->show(f.warnings.empty() ? Tone::Accent : Tone::Attention, warnings.trimmed());
     } else {
       callout()->show(Tone::Good,
                       tr("State %1 against %2: all nine parameters are determined.")

@@ -19,6 +19,7 @@
 #include "core/base/atomic_file.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/machine/observation_plausibility.h"
 #include "core/machine/sensor_role.h"
 #include "core/machine/stated_role.h"
 #include "core/workflows/fit_campaign.h"
@@ -57,20 +58,7 @@ QStringList machineFindings(const MachineDescription& machine) {
     findings << MachinePage::tr("No fixed bearing is stated for the %1 ball screw: its expansion has no reference.")
                     .arg(listed(no_bearing));
   }
-  for (const MachinePoint& point : machine.points) {
-    for (int i = 0; i < 3; ++i) {
-      const LinearAxis* axis = machine.findAxis(std::string(1, "XYZ"[i]));
-      if (axis == nullptr) continue;
-      const double p = point.position_mm[i];
-      if (p < axis->travel_mm[0] - 1e-9 || p > axis->travel_mm[1] + 1e-9) {
-        findings << MachinePage::tr("Point %1 lies outside the travel of axis %2 (%3 mm; travel %4 to %5 mm).")
-                        .arg(QString::fromStdString(point.id), QString::fromStdString(axis->name))
-                        .arg(p)
-                        .arg(axis->travel_mm[0])
-                        .arg(axis->travel_mm[1]);
-      }
-    }
-  }
+  for (const std::string& outside : pointsOutsideTravel(machine)) findings << coreSentence(outside);
   return findings;
 }
 
@@ -350,7 +338,8 @@ void MachinePage::showFindings() {
   if (findings.isEmpty()) {
     callout()->show(Tone::Good, tr("The description is complete for everything Spindrift does with it."));
   } else {
-    callout()->show(Tone::Attention,
+    // A description that says less than it could is no fault: the step is done. A point out of reach is one.
+    callout()->show(pointsOutsideTravel(session().campaign()->machine).empty() ? Tone::Accent : Tone::Attention,
                     findings.mid(0, 3).join(QLatin1Char(' ')) +
                         (findings.size() > 3 ? tr(" And %1 more.").arg(findings.size() - 3) : QString()));
   }

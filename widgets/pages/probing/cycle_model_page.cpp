@@ -23,6 +23,7 @@
 #include "widgets/common/parts.h"
 #include "widgets/models/cells.h"
 #include "widgets/models/rows_model.h"
+#include "widgets/pages/common/callout_note.h"
 #include "widgets/panels/common/effect_titles.h"
 #include "widgets/plots/plot.h"
 #include "widgets/services/touch_results.h"
@@ -181,9 +182,9 @@ void CycleModelPage::refresh() {
   const int at = cycle_->findText(chosen);
   cycle_->setCurrentIndex(at >= 0 ? at : cycle_->count() - 1);
   if (evaluation_->hole_cycles.size() + evaluation_->ball_cycles.size() > 1) {
-    callout()->show(Tone::Attention, tr("This page shows %1. The other artefacts are evaluated too: their deviations "
-                                        "stand in the observations and in the report.")
-                                         .arg(fromCore(cycles->artefact)));
+    addNote(*callout(), tr("This page shows %1. The other artefacts are evaluated too: their deviations stand in the "
+                           "observations and in the report.")
+                            .arg(fromCore(cycles->artefact)));
   }
   showTrends();
   showCycle();

@@ -18,6 +18,7 @@
 #include "widgets/common/preferences.h"
 #include "widgets/models/cells.h"
 #include "widgets/models/rows_model.h"
+#include "widgets/pages/common/callout_note.h"
 #include "widgets/panels/probing/reference_panel.h"
 #include "widgets/plots/plot.h"
 #include "widgets/services/touch_results.h"
@@ -157,8 +158,9 @@ void TouchEvaluationPage::refresh() {
   const ResultState& state = beside.state;
   if (!state.current) {
     callout()->show(Tone::Outdated, tr("Changed since this was evaluated: %1. Evaluate again.").arg(state.changed));
-  } else if (!stored->good_enough || !stored->warnings.empty()) {
+  } else if (!stored->good_enough || !stored->warnings.empty() || !stored->rejected.empty()) {
     QStringList sentences;
+    if (!stored->rejected.empty()) sentences << context().workflow.status(step()).sentence;  // how many of how many
     for (const std::string& w : stored->warnings) sentences << coreSentence(w);
     callout()->show(Tone::Attention,
                     sentences.mid(0, 2).join(QLatin1Char(' ')) +
@@ -182,9 +184,9 @@ void TouchEvaluationPage::refresh() {
   const int at = cycle_->findText(chosen);
   cycle_->setCurrentIndex(at >= 0 ? at : cycle_->count() - 1);
   if (details_.touches->hole_cycles.size() + details_.touches->ball_cycles.size() > 1) {
-    callout()->show(Tone::Attention, tr("This page shows %1. The other artefacts are evaluated too: their deviations "
-                                        "stand in the observations and in the report.")
-                                         .arg(fromCore(cycles->artefact)));
+    addNote(*callout(), tr("This page shows %1. The other artefacts are evaluated too: their deviations stand in the "
+                           "observations and in the report.")
+                            .arg(fromCore(cycles->artefact)));
   }
   showTiles(*cycles);
   showFeatures();

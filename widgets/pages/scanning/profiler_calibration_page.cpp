@@ -91,12 +91,12 @@ void ProfilerCalibrationPage::refresh() {
   const auto detail = shown_now.as<EvaluationDetail>();
   if (!state.current) {
     callout()->show(Tone::Outdated, tr("Changed since this was evaluated: %1. Evaluate again.").arg(state.changed));
-  } else if (!stored->good_enough || !stored->warnings.empty()) {
+  } else if (!stored->good_enough || !stored->warnings.empty() || !stored->rejected.empty()) {
     QStringList sentences;
+    if (!stored->rejected.empty()) sentences << context().workflow.status(step()).sentence;  // how many of how many
     // What the calibration cannot determine stands beside its numbers.
     for (const std::string& w : stored->warnings)
-      if (detail == nullptr || detail->scans == nullptr || w != calibrationWarning(detail->scans->mounting.calibration))
-        sentences << coreSentence(w);
+      if (!isCalibrationWarning(w)) sentences << coreSentence(w);
     if (sentences.isEmpty()) {
       callout()->show(Tone::Good, tr("Deviations found: %1; see what the calibration cannot determine.")
                                       .arg(static_cast<int>(stored->observations.rows.size())));
