@@ -11802,6 +11802,18 @@ endgültig fehlgeschlagen: {}</translation>
         <source>All touches of {} lie some {:.1f} mm from where the machine file has it: is its nominal position right?</source>
         <translation>Alle Antastungen von {} liegen etwa {:.1f} mm von dem Ort in der Maschinendatei entfernt: stimmt die Sollposition?</translation>
     </message>
+    <message>
+        <source>Point {} lies outside the travel of axis {} ({:g} mm; travel {:g} to {:g} mm).</source>
+        <translation>Punkt {} liegt außerhalb des Verfahrwegs der Achse {} ({:g} mm; Verfahrweg {:g} bis {:g} mm).</translation>
+    </message>
+    <message>
+        <source>The machine description says that its scans are {}. Under another scan model the errors are wrong by more than they say.</source>
+        <translation>Nach der Maschinenbeschreibung ist das Modell ihrer Scans {}. Unter einem anderen Scanmodell sind die Abweichungen um mehr falsch, als ihre Unsicherheit angibt.</translation>
+    </message>
+    <message>
+        <source>{}, table at {:g}°</source>
+        <translation>{}, Tisch bei {:g}°</translation>
+    </message>
 </context>
 <context>
     <name>files</name>
@@ -20783,10 +20795,6 @@ ihrem Ordner und führen nicht hinaus.
         <translation>Für den Kugelgewindetrieb %1 ist kein Festlager angegeben: seine Ausdehnung hat keinen Bezugspunkt.</translation>
     </message>
     <message>
-        <source>Point %1 lies outside the travel of axis %2 (%3 mm; travel %4 to %5 mm).</source>
-        <translation>Punkt %1 liegt außerhalb des Verfahrwegs der Achse %2 (%3 mm; Verfahrweg %4 bis %5 mm).</translation>
-    </message>
-    <message>
         <source>Discard</source>
         <translation>Verwerfen</translation>
     </message>
@@ -21675,6 +21683,10 @@ ihrem Ordner und führen nicht hinaus.
     <message>
         <source>Leave this session</source>
         <translation>Diese Sitzung verlassen</translation>
+    </message>
+    <message>
+        <source>%1 is imported. &quot;%2&quot; is still running here, so it is not opened: it stands among the recent sessions.</source>
+        <translation>%1 ist importiert. Hier läuft noch „%2“, daher wird es nicht geöffnet: es steht unter den letzten Sitzungen.</translation>
     </message>
 </context>
 <context>
@@ -24180,6 +24192,14 @@ ihrem Ordner und führen nicht hinaus.
         <source>All angles</source>
         <translation>Alle Winkel</translation>
     </message>
+    <message>
+        <source>This campaign is being read.</source>
+        <translation>Diese Kampagne wird gelesen.</translation>
+    </message>
+    <message>
+        <source>Reading %1</source>
+        <translation>%1 wird gelesen</translation>
+    </message>
 </context>
 <context>
     <name>spindrift::gui::ReviewPane</name>
@@ -26225,6 +26245,10 @@ ihrem Ordner und führen nicht hinaus.
     <message>
         <source>After: %1 in %2</source>
         <translation>Nachher: %1 in %2</translation>
+    </message>
+    <message>
+        <source>%1, table at %2°</source>
+        <translation>%1, Tisch bei %2°</translation>
     </message>
 </context>
 <context>

@@ -18,6 +18,7 @@ std::span<const char* const> spindrift::gui::core_formats::machine() noexcept {
     QT_TRANSLATE_NOOP("core", "E{}{} is {:.4g} mm at {:g} mm; allowed in a sag compensation: -1 to 1 mm."),
     QT_TRANSLATE_NOOP("core", "H1 to H{}"),
     QT_TRANSLATE_NOOP("core", "Observed rotations are left out: the nine parameters are fitted to displacements."),
+    QT_TRANSLATE_NOOP("core", "Point {} lies outside the travel of axis {} ({:g} mm; travel {:g} to {:g} mm)."),
     QT_TRANSLATE_NOOP("core", "The column {} of the log was left out: \"{}\" in line {} and {} more of its fields are no numbers."),
     QT_TRANSLATE_NOOP("core", "The labels of {} and {} are swapped in state {} or in {}: each lies {:.1f} mm away, at the place of the other."),
     QT_TRANSLATE_NOOP("core", "The labels of {} and {} are swapped in state {}: each lies {:.1f} mm away, at the place of the other."),

@@ -253,6 +253,7 @@ std::span<const char* const> spindrift::gui::core_formats::reporting() noexcept 
     QT_TRANSLATE_NOOP("core", "{} × {} pixels"),
     QT_TRANSLATE_NOOP("core", "{}, colour {}"),
     QT_TRANSLATE_NOOP("core", "{}, listed with their reasons"),
+    QT_TRANSLATE_NOOP("core", "{}, table at {:g}°"),
     QT_TRANSLATE_NOOP("core", "{}, up to {:g} {}"),
     QT_TRANSLATE_NOOP("core", "{}; the {} of {} that change most"),
   };

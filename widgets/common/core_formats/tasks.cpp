@@ -70,6 +70,7 @@ std::span<const char* const> spindrift::gui::core_formats::tasks() noexcept {
     QT_TRANSLATE_NOOP("core", "The compensator was run over the log."),
     QT_TRANSLATE_NOOP("core", "The file of the report is gone. Write it again."),
     QT_TRANSLATE_NOOP("core", "The goal: {}"),
+    QT_TRANSLATE_NOOP("core", "The machine description says that its scans are {}. Under another scan model the errors are wrong by more than they say."),
     QT_TRANSLATE_NOOP("core", "The model is fitted, but does not describe this state, or a point is disturbed: its residuals are larger than the stated uncertainties allow."),
     QT_TRANSLATE_NOOP("core", "The model is fitted."),
     QT_TRANSLATE_NOOP("core", "The model is identified."),
