@@ -55,6 +55,40 @@ const ReviewPrediction& ReviewSource::completed() const {
 
 void ReviewSources::refresh() {
   read_.clear();
+  if (session_number_ == session_.sessionNumber()) return;
+  session_number_ = session_.sessionNumber();
+  others_.clear();
+}
+
+ReviewSources::Version ReviewSources::versionOf(std::int64_t id) const {
+  const Session& session = *session_.session();
+  Version now{session.campaign(id).fingerprint, CampaignEdits::of(session, id), excludedItems(session, id), {}};
+  for (const std::string& kind : session.resultKinds(id))
+    now.results.push_back(session.resultHeads(id, kind).back().id);
+  return now;
+}
+
+std::shared_ptr<const CampaignState> ReviewSources::stateOf(std::int64_t id) {
+  Version now = versionOf(id);
+  if (const auto known = others_.find(id); known != others_.end() && known->second.version == now)
+    return known->second.state;
+  others_[id] = {std::move(now), true, nullptr};
+  read_in_background_(id, shownName(session_.session()->campaign(id).name),
+                      CampaignSource::of(*session_.session(), id));
+  return nullptr;
+}
+
+bool ReviewSources::reading(std::int64_t id) const {
+  const auto known = others_.find(id);
+  return id != session_.campaignId() && known != others_.end() && known->second.reading;
+}
+
+void ReviewSources::take(std::int64_t id, std::shared_ptr<const CampaignState> state) {
+  read_.erase(id);
+  const auto known = others_.find(id);
+  if (known == others_.end()) return;
+  known->second.reading = false;
+  known->second.state = std::move(state);
 }
 
 std::vector<std::pair<std::int64_t, QString>> ReviewSources::campaigns() const {
@@ -71,11 +105,11 @@ std::shared_ptr<const ReviewSource> ReviewSources::source(std::int64_t id) {
     if (id == session_.campaignId()) {
       readReview(session_.tasks(), session_.taskInputs(), *source);
     } else {
-      // As it would be if it were at hand.
-      const CampaignState state = CampaignState::read(*session_.session(), id);
+      const std::shared_ptr<const CampaignState> state = stateOf(id);
+      if (state == nullptr) return nullptr;
       const TaskLedger nothing_runs;
-      const TaskGraph tasks = state.tasks(*session_.session(), nothing_runs);
-      readReview(tasks, TaskInputs::of(tasks, state), *source);
+      const TaskGraph tasks = state->tasks(*session_.session(), nothing_runs);
+      readReview(tasks, TaskInputs::of(tasks, *state), *source);
     }
     source->id = id;
     source->fit = chosen<NineParameterChoice>(*session_.session(), id).options();

@@ -79,7 +79,9 @@ void ReviewPage::showAll() {
     PaneRequest r;
     if (!pane->isHidden() && !pane->isScan()) {
       r.source = pane->source();
-      if (r.source == nullptr || !r.source->observations)
+      if (sources_.reading(pane->campaignChoice()->currentData().toLongLong()))
+        r.problem = tr("This campaign is being read.");
+      else if (r.source == nullptr || !r.source->observations)
         r.problem = tr("This campaign has no observations yet: evaluate its captures first.");
       r.request.state = pane->state(at_slider);
       if (r.source != nullptr) r.request.fit = r.source->fit;
@@ -137,6 +139,10 @@ void ReviewPage::showScans() {
   for (ReviewPane* pane : panes_) {
     if (pane->isHidden() || !pane->isScan()) continue;
     const auto source = pane->source();
+    if (sources_.reading(pane->campaignChoice()->currentData().toLongLong())) {
+      pane->showMessage(tr("Nothing to show"), tr("This campaign is being read."));
+      continue;
+    }
     if (source == nullptr || source->scans.empty()) {
       pane->showMessage(tr("Nothing to show"), tr("This campaign has no scans."));
       continue;

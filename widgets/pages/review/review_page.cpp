@@ -25,6 +25,7 @@
 #include "widgets/common/quantity_box.h"
 #include "widgets/common/words.h"
 #include "widgets/common/wrap_layout.h"
+#include "widgets/jobs/job_runner.h"
 #include "widgets/models/cells.h"
 #include "widgets/models/rows_model.h"
 #include "widgets/panels/review/review_pane.h"
@@ -42,7 +43,10 @@ constexpr double section_reach = 0.1;
 }  // namespace
 
 ReviewPage::ReviewPage(PageContext page_context, QWidget* parent)
-    : Page(std::move(page_context), StepId::Review, parent), sources_(session()) {
+    : Page(std::move(page_context), StepId::Review, parent),
+      sources_(session(), [this](std::int64_t id, const QString& name, CampaignSource source) {
+        readOther(id, name, std::move(source));
+      }) {
   play_ = makeButton(tr("Play the states"), "play", "primary");
   play_->setCheckable(true);
   addAction(play_);
@@ -227,6 +231,32 @@ void ReviewPage::refresh() {
   }
   showAll();
   if (isVisible() && (own != nullptr && !(own->states.empty() && own->scans.empty()))) session().noteReviewed();
+}
+
+void ReviewPage::readOther(std::int64_t id, const QString& name, CampaignSource source) {
+  Job job;
+  job.title = tr("Reading %1").arg(name);
+  job.queue = JobQueue::Reading;
+  job.key = "review/" + std::to_string(id);
+  job.work = [this, id, session_number = session().sessionNumber(),
+              source = std::move(source)](JobContext& context) -> std::function<void()> {
+    auto state = std::make_shared<const CampaignState>(CampaignState::read(source, context));
+    return [this, id, session_number, state] {
+      if (session_number == session().sessionNumber()) takeOther(id, state);
+    };
+  };
+  job.failed = [this, id, session_number = session().sessionNumber()](const QString&) {
+    if (session_number == session().sessionNumber()) takeOther(id, nullptr);
+  };
+  job.abandonable = true;
+  context().jobs.run(std::move(job));
+}
+
+void ReviewPage::takeOther(std::int64_t id, std::shared_ptr<const CampaignState> state) {
+  sources_.take(id, std::move(state));
+  for (ReviewPane* pane : panes_) pane->refresh(session().campaignId());
+  sayWhatIsOutdated();
+  showAll();
 }
 
 void ReviewPage::sayWhatIsOutdated() {

@@ -67,6 +67,9 @@ class ReviewPage : public Page {
   void play(bool on);
   [[nodiscard]] double exaggeration() const;
 
+  void readOther(std::int64_t id, const QString& name, CampaignSource source);
+  void takeOther(std::int64_t id, std::shared_ptr<const CampaignState> state);
+
   ReviewSources sources_;
   std::string shown_folder_;  ///< of the campaign; ids start again in every session
   std::array<ReviewPane*, 4> panes_{};

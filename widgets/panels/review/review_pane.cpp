@@ -122,6 +122,10 @@ void ReviewPane::refresh(std::int64_t campaign) {
 }
 
 void ReviewPane::fillStates() {
+  // While another campaign is read, what was chosen stays to be looked for in it.
+  if (const auto none = source();
+      none == nullptr && sources_.reading(campaign_->currentData().toLongLong()) && content_->count() > 0)
+    return;
   const bool was_filling = filling_;
   filling_ = true;
   const QString state = state_->count() > 0 && state_->currentIndex() > 0 ? state_->currentText() : QString();

@@ -6,6 +6,7 @@
 #include <QMouseEvent>
 #include <QSlider>
 #include <QTableView>
+#include <algorithm>
 #include <cmath>
 
 #include "core/base/atomic_file.h"
@@ -196,6 +197,10 @@ TEST_F(Review, TwoCampaignsOfOneSessionAreCompared) {
   QComboBox* campaigns = page->pane(2)->campaignChoice();
   ASSERT_EQ(campaigns->count(), 2);
   campaigns->setCurrentIndex(campaigns->findText(QStringLiteral("first")));
+  const std::vector<JobEntry> jobs = window_->jobs().entries();
+  EXPECT_TRUE(std::any_of(jobs.begin(), jobs.end(), [](const JobEntry& job) {
+    return job.title == QStringLiteral("Reading first");
+  })) << "the window does not wait for it";
   page->pane(2)->choose(PaneContent::Difference);
   ASSERT_TRUE(waitForJobs(*window_, 30));
   // M3 of the first minus M3 of the second: minus half of 9 (1 + x / 300).
