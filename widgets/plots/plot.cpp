@@ -104,7 +104,7 @@ Plot::Plot(QWidget* parent) : QWidget(parent), plot_(new QCustomPlot(this)) {
   plot_->installEventFilter(this);
   plot_->setMouseTracking(true);
   plot_->hide();
-  setFocusPolicy(Qt::ClickFocus);
+  setFocusPolicy(Qt::StrongFocus);
   for (QCPAxis* axis : {plot_->xAxis, plot_->yAxis}) {
     QSharedPointer<Ticker> ticker(new Ticker);
     ticker->setTickCount(most_ticks);
@@ -201,6 +201,8 @@ void Plot::setContent(std::vector<Series> series, std::vector<Span> spans) {
   series_ = std::move(series);
   spans_ = std::move(spans);
   marks_.clear();
+  if (cursor_) setAccessibleDescription(described_);
+  cursor_.reset();
   rebuild();
   nameForReaders();
   updateGeometry();  // a legend takes a line
@@ -352,6 +354,7 @@ void Plot::rebuild() {
   for (Mark& mark : marks_) mark.label = nullptr;
   span_names_.clear();
   moment_line_ = nullptr;
+  cursor_ring_ = nullptr;
   restyle();
   const Theme& t = theme();
   int named = 0;
@@ -444,6 +447,7 @@ void Plot::rebuild() {
   }
   for (Mark& mark : marks_) drawMark(mark);
   placeMoment();
+  placeCursor();
   plot_->legend->setVisible(legend_ && named > 1);
   if (series_.empty()) plot_->hide();
   update();
@@ -654,7 +658,9 @@ void Plot::drawForFile(const std::function<void(const QSize& size)>& draw) {
     stale_ = true;
   }
   drawIfStale();
+  if (cursor_ring_ != nullptr) cursor_ring_->setVisible(false);
   draw(size().expandedTo({640, 400}));
+  if (cursor_ring_ != nullptr) cursor_ring_->setVisible(true);
   if (other_units) {
     QTimer::singleShot(0, this, [this] {
       rebuild();

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A plot in the program's manner: axes with quantity / unit, thin lines, points where measured, lines where predicted,
-// bands for uncertainty, shaded spans. Drag pans, wheel zooms, double-click shows everything. QCustomPlot inside.
+// bands for uncertainty, shaded spans. Drag pans, wheel zooms, double-click shows everything. By keyboard:
+// left, right, Home and End move a cursor from value to value, up and down to the next series, shift and arrows pan,
+// plus and minus zoom, 0 shows everything, Return picks the value, Escape takes the cursor away. QCustomPlot inside.
 #pragma once
 
 #include <QImage>
@@ -17,6 +19,7 @@
 #include "widgets/theme/theme.h"
 
 class QCPItemStraightLine;
+class QCPItemTracer;
 class QCPItemText;
 class QCustomPlot;
 
@@ -82,6 +85,8 @@ class Plot : public QWidget {
   /// A vertical line that marks what is shown elsewhere; moves without drawing the curves anew. Empty: none.
   void setMoment(const std::optional<double>& x);
   [[nodiscard]] const std::optional<double>& moment() const { return moment_; }
+  /// The value at which the cursor of the keyboard stands: its series and its place in it.
+  [[nodiscard]] const std::optional<std::pair<std::size_t, std::size_t>>& cursor() const { return cursor_; }
   /// Fixes what showAll() shows of the y axis, so that plots side by side can be compared; empty: from the data.
   void setRange(const std::optional<std::pair<double, double>>& y) { fixed_range_ = y; }
 
@@ -102,7 +107,8 @@ class Plot : public QWidget {
   [[nodiscard]] QSize minimumSizeHint() const override;
 
  Q_SIGNALS:
-  /// What is under the cursor: a value with its uncertainty, else the place on the axes; empty: the cursor has left.
+  /// What is under the cursor of the mouse or of the keyboard: a value with its uncertainty, else the place on the
+  /// axes; empty: the cursor has left.
   void hovered(const QString& text);
   void spanMoved(int index, double from, double to);
   /// The user clicked a value, within 12 pixels: its place on the x axis and in its series.
@@ -113,6 +119,9 @@ class Plot : public QWidget {
   void resizeEvent(QResizeEvent* event) override;
   void showEvent(QShowEvent* event) override;
   bool eventFilter(QObject* watched, QEvent* event) override;
+  void keyPressEvent(QKeyEvent* event) override;
+  void focusInEvent(QFocusEvent* event) override;
+  void focusOutEvent(QFocusEvent* event) override;
 
  private:
   /// Calls `draw` with the size of a picture for a file, in light colours and the units of files.
@@ -145,6 +154,15 @@ class Plot : public QWidget {
   /// Series and index of the value next to a place of the plot, within reach of the cursor.
   [[nodiscard]] std::optional<std::pair<std::size_t, std::size_t>> valueAt(const QPointF& place) const;
   [[nodiscard]] QString textAt(const QPointF& place) const;
+  [[nodiscard]] QString textOf(std::size_t series, std::size_t index) const;
+  bool onKey(const QKeyEvent& event);
+  /// The values of a series that are drawn, in order of x.
+  [[nodiscard]] std::vector<std::size_t> valuesOf(std::size_t series) const;
+  void beginCursor();
+  void moveAlong(int key);
+  void moveToSeries(int by);
+  void setCursorAt(const std::optional<std::pair<std::size_t, std::size_t>>& value);
+  void placeCursor();
   void placeMoment();
   void drawMark(Mark& mark);
   void placeMarks();
@@ -160,6 +178,9 @@ class Plot : public QWidget {
   std::optional<std::pair<std::size_t, bool>> dragged_edge_;
   std::optional<double> moment_;
   QCPItemStraightLine* moment_line_ = nullptr;
+  std::optional<std::pair<std::size_t, std::size_t>> cursor_;
+  QCPItemTracer* cursor_ring_ = nullptr;
+  QString described_;  ///< what the plot is called by while no value is
   QPointF pressed_at_;
   double least_range_ = 0;
   std::optional<std::pair<double, double>> fixed_range_;

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the mouse does in a plot: values picked, edges of spans dragged, what stands under the cursor.
+// What mouse and keyboard do in a plot: values picked, edges of spans dragged, what stands under the cursor.
+#include <QFocusEvent>
+#include <QKeyEvent>
 #include <QLineF>
 #include <QMouseEvent>
 #include <QToolTip>
@@ -41,28 +43,210 @@ std::optional<std::pair<std::size_t, std::size_t>> Plot::valueAt(const QPointF& 
   return found;
 }
 
+namespace {
+
+QString quantityOf(const QString& title) {
+  return title.section(QStringLiteral(" / "), 0, 0);
+}
+
+QString numberText(double v, const QString& title) {
+  const ShownUnit unit = unitOfTitle(title);
+  const QString text = decimalText(unit.shown(v), 'g', 4);
+  return unit.name.isEmpty() ? text : text + QLatin1Char(' ') + unit.name;
+}
+
+}  // namespace
+
 QString Plot::textAt(const QPointF& place) const {
-  const auto quantity = [](const QString& title) { return title.section(QStringLiteral(" / "), 0, 0); };
-  const auto number = [](double v, const QString& title) {
-    const ShownUnit unit = unitOfTitle(title);
-    const QString text = decimalText(unit.shown(v), 'g', 4);
-    return unit.name.isEmpty() ? text : text + QLatin1Char(' ') + unit.name;
-  };
-  const auto found = valueAt(place);
-  if (!found) {
-    return quantity(x_title_) + QStringLiteral(" = ") + number(plot_->xAxis->pixelToCoord(place.x()), x_title_) +
-           QStringLiteral(",  ") + quantity(y_title_) + QStringLiteral(" = ") +
-           number(plot_->yAxis->pixelToCoord(place.y()), y_title_);
-  }
-  const Series& series = series_[found->first];
-  const std::size_t i = found->second;
+  if (const auto found = valueAt(place)) return textOf(found->first, found->second);
+  return quantityOf(x_title_) + QStringLiteral(" = ") + numberText(plot_->xAxis->pixelToCoord(place.x()), x_title_) +
+         QStringLiteral(",  ") + quantityOf(y_title_) + QStringLiteral(" = ") +
+         numberText(plot_->yAxis->pixelToCoord(place.y()), y_title_);
+}
+
+QString Plot::textOf(std::size_t series_index, std::size_t i) const {
+  const Series& series = series_[series_index];
   const double sigma = i < series.sigma.size() ? series.sigma[i] : 0.0;
   const ShownUnit y_unit = unitOfTitle(y_title_);
   const QString value = sigma > 0.0 ? shownNumbers(QString::fromStdString(withUncertainty(
                                           y_unit.shown(series.y[i]), y_unit.factor * sigma, y_unit.name.toStdString())))
-                                    : number(series.y[i], y_title_);
-  return (series.name.isEmpty() ? quantity(y_title_) : onScreen(series.name)) + QStringLiteral(", ") +
-         quantity(x_title_) + QLatin1Char(' ') + number(series.x[i], x_title_) + QStringLiteral(": ") + value;
+                                    : numberText(series.y[i], y_title_);
+  return (series.name.isEmpty() ? quantityOf(y_title_) : onScreen(series.name)) + QStringLiteral(", ") +
+         quantityOf(x_title_) + QLatin1Char(' ') + numberText(series.x[i], x_title_) + QStringLiteral(": ") + value;
+}
+
+std::vector<std::size_t> Plot::valuesOf(std::size_t series) const {
+  const Series& s = series_[series];
+  std::vector<std::size_t> values;
+  for (std::size_t i = 0; i < s.x.size(); ++i)
+    if (std::isfinite(s.x[i]) && std::isfinite(s.y[i])) values.push_back(i);
+  std::stable_sort(values.begin(), values.end(), [&s](std::size_t a, std::size_t b) { return s.x[a] < s.x[b]; });
+  return values;
+}
+
+void Plot::setCursorAt(const std::optional<std::pair<std::size_t, std::size_t>>& value) {
+  if (!cursor_) described_ = accessibleDescription();
+  cursor_ = value;
+  placeCursor();
+  replotSoon();
+  if (!cursor_) {
+    QToolTip::hideText();
+    setAccessibleDescription(described_);
+    Q_EMIT hovered({});
+    return;
+  }
+  const double x = series_[cursor_->first].x[cursor_->second], y = series_[cursor_->first].y[cursor_->second];
+  for (const auto& [axis, at] : {std::pair{plot_->xAxis, x}, std::pair{plot_->yAxis, y}})
+    if (!axis->range().contains(at)) axis->setRange(at, axis->range().size(), Qt::AlignCenter);
+  const QString text = textOf(cursor_->first, cursor_->second);
+  setAccessibleDescription(text);
+  QToolTip::showText(mapToGlobal(pixelOf(x, y).toPoint()), text, this);
+  Q_EMIT hovered(text);
+}
+
+void Plot::placeCursor() {
+  if (!cursor_) {
+    if (cursor_ring_ != nullptr) plot_->removeItem(cursor_ring_);
+    cursor_ring_ = nullptr;
+    return;
+  }
+  if (cursor_ring_ == nullptr) {
+    constexpr double diameter_px = 13;
+    cursor_ring_ = new QCPItemTracer(plot_);
+    cursor_ring_->setStyle(QCPItemTracer::tsCircle);
+    cursor_ring_->setSize(diameter_px);
+    cursor_ring_->setPen(QPen(theme().tone(Tone::Accent), 2));
+    cursor_ring_->setBrush(Qt::NoBrush);
+  }
+  cursor_ring_->position->setCoords(series_[cursor_->first].x[cursor_->second],
+                                    series_[cursor_->first].y[cursor_->second]);
+}
+
+/// At the first value in view.
+void Plot::beginCursor() {
+  drawIfStale();
+  for (std::size_t k = 0; k < series_.size(); ++k) {
+    const std::vector<std::size_t> values = valuesOf(k);
+    if (values.empty()) continue;
+    const auto seen = std::find_if(values.begin(), values.end(), [&](std::size_t i) {
+      return plot_->xAxis->range().contains(series_[k].x[i]) && plot_->yAxis->range().contains(series_[k].y[i]);
+    });
+    return setCursorAt(std::pair{k, seen == values.end() ? values.front() : *seen});
+  }
+}
+
+void Plot::moveAlong(int key) {
+  const std::vector<std::size_t> values = valuesOf(cursor_->first);
+  const auto here = std::find(values.begin(), values.end(), cursor_->second);
+  auto to = here;
+  if (key == Qt::Key_Left && here != values.begin()) --to;
+  if (key == Qt::Key_Right && here + 1 != values.end()) ++to;
+  if (key == Qt::Key_Home) to = values.begin();
+  if (key == Qt::Key_End) to = values.end() - 1;
+  setCursorAt(std::pair{cursor_->first, *to});
+}
+
+/// To the value of another series nearest in x.
+void Plot::moveToSeries(int by) {
+  const double x = series_[cursor_->first].x[cursor_->second];
+  const auto count = static_cast<int>(series_.size());
+  for (int k = static_cast<int>(cursor_->first) + by; k >= 0 && k < count; k += by) {
+    const Series& s = series_[static_cast<std::size_t>(k)];
+    const std::vector<std::size_t> values = valuesOf(static_cast<std::size_t>(k));
+    if (values.empty()) continue;
+    const auto nearest = std::min_element(values.begin(), values.end(), [&](std::size_t a, std::size_t b) {
+      return std::abs(s.x[a] - x) < std::abs(s.x[b] - x);
+    });
+    return setCursorAt(std::pair{static_cast<std::size_t>(k), *nearest});
+  }
+  setCursorAt(cursor_);
+}
+
+/// False: the key is not one of the plot's.
+bool Plot::onKey(const QKeyEvent& event) {
+  constexpr double pan = 0.1;   // of what is shown
+  constexpr double zoom = 0.8;  // what is shown then of what was
+  if (series_.empty() || (event.modifiers() & (Qt::ControlModifier | Qt::AltModifier | Qt::MetaModifier))) return false;
+  const bool shift = (event.modifiers() & Qt::ShiftModifier) != 0;
+  const auto move = [this](QCPAxis* axis, double part) {
+    axis->moveRange(part * axis->range().size());
+    replotSoon();
+  };
+  const auto scale = [this](double factor) {
+    for (QCPAxis* axis : {plot_->xAxis, plot_->yAxis}) {
+      const auto at = [&] {
+        const std::vector<double>& values =
+            axis == plot_->xAxis ? series_[cursor_->first].x : series_[cursor_->first].y;
+        return values[cursor_->second];
+      };
+      axis->scaleRange(factor, cursor_ ? at() : axis->range().center());
+    }
+    replotSoon();
+  };
+  const int key = event.key();
+  switch (key) {
+    case Qt::Key_Left:
+    case Qt::Key_Right:
+      if (shift) {
+        move(plot_->xAxis, key == Qt::Key_Left ? -pan : pan);
+        return true;
+      }
+      [[fallthrough]];
+    case Qt::Key_Home:
+    case Qt::Key_End:
+      if (!cursor_)
+        beginCursor();
+      else
+        moveAlong(key);
+      return true;
+    case Qt::Key_Up:
+    case Qt::Key_Down:
+      if (shift)
+        move(plot_->yAxis, key == Qt::Key_Down ? -pan : pan);
+      else if (!cursor_)
+        beginCursor();
+      else
+        moveToSeries(key == Qt::Key_Up ? -1 : 1);
+      return true;
+    case Qt::Key_Plus:
+    case Qt::Key_Equal:
+      scale(zoom);
+      return true;
+    case Qt::Key_Minus:
+      scale(1.0 / zoom);
+      return true;
+    case Qt::Key_0:
+      showAll();
+      return true;
+    case Qt::Key_Return:
+    case Qt::Key_Enter:
+      if (!cursor_) return false;
+      Q_EMIT picked(series_[cursor_->first].x[cursor_->second], static_cast<int>(cursor_->first),
+                    static_cast<int>(cursor_->second));
+      return true;
+    case Qt::Key_Escape:
+      if (!cursor_) return false;
+      setCursorAt(std::nullopt);
+      return true;
+    default:
+      return false;
+  }
+}
+
+void Plot::keyPressEvent(QKeyEvent* event) {
+  if (!onKey(*event)) QWidget::keyPressEvent(event);
+}
+
+void Plot::focusInEvent(QFocusEvent* event) {
+  QWidget::focusInEvent(event);
+  // Whoever comes by keyboard sees where the keys work.
+  if (event->reason() == Qt::TabFocusReason || event->reason() == Qt::BacktabFocusReason) beginCursor();
+}
+
+void Plot::focusOutEvent(QFocusEvent* event) {
+  QWidget::focusOutEvent(event);
+  if (cursor_ && event->reason() != Qt::ActiveWindowFocusReason && event->reason() != Qt::PopupFocusReason)
+    setCursorAt(std::nullopt);
 }
 
 void Plot::pickValue(QEvent* event) {

@@ -6,6 +6,7 @@
 #include <QCoreApplication>
 #include <QFile>
 #include <QImage>
+#include <QKeyEvent>
 #include <QMouseEvent>
 #include <QSignalSpy>
 #include <cmath>
@@ -48,6 +49,71 @@ TEST(Plot, ExportsPngSvgPdfAndCsv) {
   ASSERT_TRUE(svg.open(QIODevice::ReadOnly));
   EXPECT_TRUE(svg.readAll().contains("<svg"));
   EXPECT_EQ(plot.csv().count(QLatin1Char('\n')), 101);
+}
+
+TEST(Plot, IsReadAndMovedByKeyboardAlone) {
+  Plot plot;
+  plot.resize(500, 300);
+  plot.setAxes(QStringLiteral("Time / h"), QStringLiteral("EZ / um"));
+  Series measured = ramp();
+  measured.y[1] = std::nan("");  // not drawn: no value to stop at
+  Series model = ramp();
+  model.name = QStringLiteral("model");
+  model.sigma.clear();
+  plot.setContent({measured, model});
+  plot.show();
+  const QString described = plot.accessibleDescription();
+  QSignalSpy told(&plot, &Plot::hovered);
+  QSignalSpy picked(&plot, &Plot::picked);
+  const auto press = [&plot](int key, Qt::KeyboardModifiers with = Qt::NoModifier) {
+    QKeyEvent event(QEvent::KeyPress, key, with);
+    QCoreApplication::sendEvent(&plot, &event);
+    return event.isAccepted();
+  };
+  const auto at = [](std::size_t series, std::size_t index) { return std::optional(std::pair{series, index}); };
+  EXPECT_TRUE(plot.focusPolicy() & Qt::TabFocus);
+  ASSERT_TRUE(press(Qt::Key_Right));
+  EXPECT_EQ(plot.cursor(), at(0, 0));
+  press(Qt::Key_Right);
+  EXPECT_EQ(plot.cursor(), at(0, 2)) << "the next that is drawn";
+  EXPECT_EQ(plot.accessibleDescription(), QStringLiteral("EZ, Time 0.2 h: 1.0 ± 0.4 µm"));
+  EXPECT_EQ(told.back().at(0).toString(), plot.accessibleDescription());
+  press(Qt::Key_Down);
+  EXPECT_EQ(plot.cursor(), at(1, 2)) << "the other series, at the same place";
+  EXPECT_EQ(told.back().at(0).toString(), QStringLiteral("model, Time 0.2 h: 1 µm"));
+  press(Qt::Key_Down);
+  EXPECT_EQ(plot.cursor(), at(1, 2)) << "there is no other";
+  press(Qt::Key_Return);
+  ASSERT_EQ(picked.size(), 1);
+  EXPECT_EQ(picked.back().at(1).toInt(), 1);
+  EXPECT_EQ(picked.back().at(2).toInt(), 2);
+  press(Qt::Key_End);
+  EXPECT_EQ(plot.cursor(), at(1, 49));
+  press(Qt::Key_Home);
+  EXPECT_EQ(plot.cursor(), at(1, 0));
+
+  auto* axes = plot.findChild<QCustomPlot*>();
+  const QCPRange all = axes->xAxis->range();
+  press(Qt::Key_Plus);
+  press(Qt::Key_Plus);
+  EXPECT_LT(axes->xAxis->range().size(), 0.7 * all.size());
+  const QCPRange zoomed = axes->xAxis->range();
+  press(Qt::Key_Right, Qt::ShiftModifier);
+  EXPECT_NEAR(axes->xAxis->range().lower, zoomed.lower + 0.1 * zoomed.size(), 1e-9);
+  press(Qt::Key_End);
+  EXPECT_TRUE(axes->xAxis->range().contains(4.9)) << "what the cursor stands at is in view";
+  press(Qt::Key_0);
+  EXPECT_NEAR(axes->xAxis->range().size(), all.size(), 1e-9);
+
+  EXPECT_TRUE(press(Qt::Key_Escape));
+  EXPECT_FALSE(plot.cursor().has_value());
+  EXPECT_EQ(plot.accessibleDescription(), described);
+  EXPECT_TRUE(told.back().at(0).toString().isEmpty());
+  EXPECT_FALSE(press(Qt::Key_Escape)) << "for the window";
+  EXPECT_FALSE(press(Qt::Key_Right, Qt::ControlModifier)) << "for the window";
+  press(Qt::Key_Right);
+  plot.setContent({ramp()});
+  EXPECT_FALSE(plot.cursor().has_value()) << "what is new has no value at hand";
 }
 
 /// A title in two lines and fewer numbers where there is less room.
