@@ -236,7 +236,10 @@ NumberTile::NumberTile(const QString& name, QWidget* parent) : QFrame(parent) {
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(0, 0, 0, 0);
   column->setSpacing(2);
-  column->addWidget(makeLabel(name, "secondaryText"));
+  auto* title = new WrappedLabel;  // in a narrow page it goes on in a second line
+  title->setProperty("role", QStringLiteral("secondaryText"));
+  title->setText(name);
+  column->addWidget(title);
   value_ = makeLabel(QStringLiteral("–"), "bigNumber");
   value_->setTextInteractionFlags(Qt::TextSelectableByMouse);
   note_ = new WrappedLabel;
