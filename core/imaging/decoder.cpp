@@ -8,6 +8,7 @@
 #include <chrono>
 #include <cmath>
 #include <memory>
+#include <mutex>
 #include <numbers>
 #include <optional>
 
@@ -561,6 +562,29 @@ DecodeResult Decoding::run() {
   return std::move(result_);
 }
 
+/// The digits of this pattern. Captures come one after the other with the same pattern: the last one is kept.
+std::shared_ptr<const NumberLibrary> libraryOf(const FiducialPattern& pattern) {
+  struct Made {
+    FiducialPattern of;
+    std::shared_ptr<const NumberLibrary> library;
+  };
+  static std::mutex mutex;
+  static Made last;
+  const auto same = [&] {
+    return last.library && last.of.digit_offset_x_um == pattern.digit_offset_x_um &&
+           last.of.digit_offset_y_um == pattern.digit_offset_y_um &&
+           last.of.digit_line_width_um == pattern.digit_line_width_um && last.of.digits == pattern.digits;
+  };
+  {
+    const std::lock_guard lock(mutex);
+    if (same()) return last.library;
+  }
+  auto library = std::make_shared<const NumberLibrary>(pattern);
+  const std::lock_guard lock(mutex);
+  last = {pattern, library};
+  return library;
+}
+
 }  // namespace
 
 void DecodeOptions::validate() const {
@@ -580,10 +604,8 @@ const Subpattern* DecodeResult::find(int row, int column) const noexcept {
 DecodeResult decodeImage(const GrayImage& image, const FiducialPattern& pattern, const DecodeOptions& options) {
   options.validate();
   const auto start = std::chrono::steady_clock::now();
-  static const NumberLibrary standard_library(standardPattern());
-  std::unique_ptr<NumberLibrary> own;
-  if (&pattern != &standardPattern()) own = std::make_unique<NumberLibrary>(pattern);
-  DecodeResult result = Decoding(image, pattern, options, own ? *own : standard_library).run();
+  const std::shared_ptr<const NumberLibrary> library = libraryOf(pattern);
+  DecodeResult result = Decoding(image, pattern, options, *library).run();
   result.elapsed_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   return result;
 }

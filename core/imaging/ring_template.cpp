@@ -360,13 +360,23 @@ double RingTemplate::estimateBlur(const GrayImage& image, const PatternMap& map,
   low = best / 1.35;
   high = best * 1.35;
   constexpr double golden = 0.6180339887498949;
-  for (int i = 0; i < 12; ++i) {
-    const double a = high - golden * (high - low);
-    const double b = low + golden * (high - low);
-    if (misfit(a) < misfit(b)) {
+  double a = high - golden * (high - low);
+  double b = low + golden * (high - low);
+  double of_a = misfit(a);
+  double of_b = misfit(b);
+  for (int i = 0; i < 12; ++i) {  // each step keeps one of the two inner points
+    if (of_a < of_b) {
       high = b;
+      b = a;
+      of_b = of_a;
+      a = high - golden * (high - low);
+      if (i < 11) of_a = misfit(a);
     } else {
       low = a;
+      a = b;
+      of_a = of_b;
+      b = low + golden * (high - low);
+      if (i < 11) of_b = misfit(b);
     }
   }
   return 0.5 * (low + high);
