@@ -20,17 +20,16 @@ namespace {
 /// to r).
 struct LiveModel {
   std::vector<double> run;
-  std::vector<int> place;  ///< of each row of the series in `error`, -1 where nothing can be measured
-  Eigen::MatrixXd error;   ///< rows: the model's own error at two rows differs by |row - row| (standard uncertainty)
+  /// Columns, one per row of the series at which a decision is made: the model's own error at two of them differs by
+  /// |column - column| (standard uncertainty).
+  Eigen::MatrixXd error;
   std::vector<char> outside;
   std::vector<std::string> inputs;
   double remainder = 1.0;
 
-  /// How far the model's own error may have moved since it was last corrected.
-  [[nodiscard]] double sigmaSince(std::size_t corrected, std::size_t row) const {
-    const auto a = static_cast<Eigen::Index>(place[corrected]);
-    const auto b = static_cast<Eigen::Index>(place[row]);
-    return (error.row(b) - error.row(a)).norm();
+  /// How far the model's own error may have moved between two decisions.
+  [[nodiscard]] double sigmaSince(Eigen::Index corrected, Eigen::Index now) const {
+    return (error.col(now) - error.col(corrected)).norm();
   }
 };
 
@@ -112,16 +111,10 @@ class Replay {
     const Eigen::VectorXd run = x * coefficients;
     live.run.assign(run.data(), run.data() + run.size());
     live.outside = result.model.outsideTraining(series_, 0);
-    std::vector<Eigen::Index> measurable_rows;
-    live.place.assign(series_.time_s.size(), -1);
-    for (std::size_t r = 0; r < series_.time_s.size(); ++r) {
-      if (!measurable(r)) continue;
-      live.place[r] = static_cast<int>(measurable_rows.size());
-      measurable_rows.push_back(static_cast<Eigen::Index>(r));
-    }
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(output.covariance);
     const Eigen::MatrixXd root = solver.eigenvectors() * solver.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal();
-    live.error = x(measurable_rows, Eigen::all) * root;
+    const Eigen::MatrixXd at_decisions = x(decision_rows_, Eigen::all);
+    live.error = root.transpose() * at_decisions.transpose();
     for (const ThermalInput& input : result.model.inputs)
       if (std::find(live.inputs.begin(), live.inputs.end(), input.name) == live.inputs.end())
         live.inputs.push_back(input.name);
@@ -146,6 +139,9 @@ class Replay {
   Random random_;
   TimeSeries known_;  ///< what the algorithm may see
   std::vector<std::vector<double>> truth_;
+  /// The last row measured in the setup, then every row at which the triggers are looked at. They depend on the record
+  /// alone, so the error of a model is worked out there only and not at every row of a fast log.
+  std::vector<Eigen::Index> decision_rows_;
 };
 
 std::size_t Replay::measureSetup(AdaptiveResult& result, std::size_t& last_setup_row) {
@@ -167,6 +163,13 @@ std::size_t Replay::measureSetup(AdaptiveResult& result, std::size_t& last_setup
         fmt::format(
             "the record ends before the setup of {:.6g} s is over; allowed: a longer record or a shorter setup.",
             options_.setup_s));
+  }
+  decision_rows_ = {static_cast<Eigen::Index>(last_setup_row)};
+  double next_decision = live_from;
+  for (std::size_t r = row; r < time.size(); ++r) {
+    if (time[r] < next_decision || !measurable(r)) continue;
+    while (next_decision <= time[r]) next_decision += options_.decision_s;
+    decision_rows_.push_back(static_cast<Eigen::Index>(r));
   }
   return row;
 }
@@ -208,7 +211,8 @@ AdaptiveResult Replay::run(std::vector<LiveModel> models) {
   }
   double last_measurement = live_from;
   std::size_t measured_row = last_setup_row;
-  double next_decision = live_from;
+  Eigen::Index measured_decision = 0;  // place of measured_row in decision_rows_
+  Eigen::Index decision = 0;
   double demanded = -1.0;  // time of a measurement that an exceedance asked for
   std::string trigger;
   for (; row < time.size(); ++row) {
@@ -217,8 +221,10 @@ AdaptiveResult Replay::run(std::vector<LiveModel> models) {
       filters[e].advance(dt);
       result.errors[e].adaptive_prediction[row] = filters[e].value(models[e].run[row]);
     }
-    if (time[row] < next_decision || !measurable(row)) continue;
-    while (next_decision <= time[row]) next_decision += options_.decision_s;
+    if (decision + 1 >= std::ssize(decision_rows_) ||
+        static_cast<Eigen::Index>(row) != decision_rows_[static_cast<std::size_t>(decision) + 1])
+      continue;
+    ++decision;
     if (row % 64 == 0)
       job_.report(static_cast<double>(row) / static_cast<double>(time.size()), "replaying the campaign");
     job_.throwIfCancelled();
@@ -229,7 +235,8 @@ AdaptiveResult Replay::run(std::vector<LiveModel> models) {
     if (trigger.empty() && since + half_row >= options_.longest_interval_s)
       trigger = "longest interval without a measurement";
     for (std::size_t e = 0; e < errors_.size() && trigger.empty(); ++e) {
-      const double sigma = std::hypot(filters[e].sigma(models[e].run[row]), models[e].sigmaSince(measured_row, row));
+      const double sigma =
+          std::hypot(filters[e].sigma(models[e].run[row]), models[e].sigmaSince(measured_decision, decision));
       if (sigma > errors_[e].trigger_sigma) {
         trigger = fmt::format("uncertainty of {} is {:.2f}", errors_[e].name, sigma);
       } else if (models[e].outside[row] > models[e].outside[measured_row] &&
@@ -241,8 +248,9 @@ AdaptiveResult Replay::run(std::vector<LiveModel> models) {
     measure(row);
     ++result.measurements;
     last_measurement = time[row];
-    const std::size_t corrected_row = measured_row;
+    const Eigen::Index corrected = measured_decision;
     measured_row = row;
+    measured_decision = decision;
     demanded = -1.0;
     result.events.push_back({time[row], AdaptiveEventKind::Measurement, trigger});
     std::vector<std::size_t> exceeded;
@@ -250,7 +258,7 @@ AdaptiveResult Replay::run(std::vector<LiveModel> models) {
       const double value = measured(e, row);
       if (!std::isfinite(value)) continue;
       const double difference = value - filters[e].value(models[e].run[row]);
-      if (!filters[e].measure(value, models[e].run[row], {}, models[e].sigmaSince(corrected_row, row))) {
+      if (!filters[e].measure(value, models[e].run[row], {}, models[e].sigmaSince(corrected, decision))) {
         forget(e, row);
         demanded = time[row] + options_.shortest_interval_s;
         result.events.push_back({time[row], AdaptiveEventKind::Refused,
