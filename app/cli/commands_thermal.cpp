@@ -100,8 +100,8 @@ void addIdentify(CLI::App& parent, CommandLine& line) {
   command
       ->add_option("--method", a->request.method,
                    "response (time constants of every input, averaged priors), arx or oe; default: arx with --order, "
-                   "else chosen by free runs inside the training range among straight lines, few time constants, ridge "
-                   "regression and response")
+                   "else chosen by free runs inside the training range among straight lines, few or shared time "
+                   "constants, ridge regression and response")
       ->check(oneOf({"response", "arx", "oe"}));
   command
       ->add_option("--temperature-unit", a->request.temperature_unit,

@@ -144,19 +144,23 @@ double PlainCandidates::visit(const Set& set, std::ptrdiff_t of) {
       for (const double shrinkage : options_.shrinkages) take(make(Method::Ridge, dense, set, shrinkage));
     }
     if (set.size() > all_sets_up_to) continue;
-    const Columns lags = fewLags(per_input, set, of);
-    auto same = std::find_if(known.begin(), known.end(),
-                             [&](std::size_t k) { return all[k].method == Method::FewLags && all[k].columns == lags; });
-    if (same == known.end()) {
-      take(lagsOf(lags, set));
-      same = std::prev(known.end());
+    std::vector<const Candidate*> fitted = {&fewLags(per_input, set, of)};
+    if (names_.size() <= all_sets_up_to) fitted.push_back(&sharedLags(set, power, of));
+    for (const Candidate* c : fitted) {
+      auto same = std::find_if(known.begin(), known.end(), [&](std::size_t k) {
+        return all[k].method == c->method && all[k].columns == c->columns;
+      });
+      if (same == known.end()) {
+        take(*c);
+        same = std::prev(known.end());
+      }
+      Candidate& kept = all[*same];
+      kept.found[place] = 1;
+      best = std::min(best, scoreOf(kept, evidence_.runs(), of));
     }
-    Candidate& kept = all[*same];
-    kept.found[place] = 1;
-    best = std::min(best, scoreOf(kept, evidence_.runs(), of));
   }
   for (const std::size_t k : known) {
-    if (all[k].method == Method::FewLags) continue;  // chosen by other judges unless marked above
+    if (all[k].time_constants > 0) continue;  // chosen by other judges unless marked above
     all[k].found[place] = 1;
     best = std::min(best, scoreOf(all[k], evidence_.runs(), of));
   }
@@ -176,9 +180,11 @@ PlainCandidates::Columns PlainCandidates::columnsOf(std::size_t input, double po
   return columns;
 }
 
-Candidate PlainCandidates::make(Method method, Columns columns, const Set& set, double shrinkage) const {
+Candidate PlainCandidates::make(Method method, Columns columns, const Set& set, double shrinkage,
+                                std::size_t time_constants) const {
   Candidate c;
   c.method = method;
+  c.time_constants = time_constants;
   c.precision.resize(static_cast<Index>(columns.size()));
   for (std::size_t k = 0; k < columns.size(); ++k)
     c.precision[static_cast<Index>(k)] = shrinkage * evidence_.sumOfSquares(columns[k]);
@@ -194,18 +200,22 @@ void PlainCandidates::keep(Candidate c) {
   all.push_back(std::move(c));
 }
 
-const Candidate& PlainCandidates::lagsOf(const Columns& columns, const Set& set) {
-  auto known = tried_.find(columns);
-  if (known == tried_.end()) known = tried_.emplace(columns, make(Method::FewLags, columns, set, 1e-6)).first;
+const Candidate& PlainCandidates::lagsOf(Method method, const Columns& columns, const Set& set,
+                                         std::size_t time_constants) {
+  const std::pair key(method, columns);
+  auto known = tried_.find(key);
+  if (known == tried_.end()) known = tried_.emplace(key, make(method, columns, set, 1e-6, time_constants)).first;
   return known->second;
 }
 
-PlainCandidates::Columns PlainCandidates::fewLags(const std::vector<Columns>& per_input, const Set& set,
-                                                  std::ptrdiff_t of) {
+const Candidate& PlainCandidates::fewLags(const std::vector<Columns>& per_input, const Set& set, std::ptrdiff_t of) {
+  const auto tried = [&](const Columns& columns) -> const Candidate& {
+    return lagsOf(Method::FewLags, columns, set, columns.size() + 1);  // the offset has the price of a second one too
+  };
   Columns best;
   for (const Columns& columns : per_input)
     best.push_back(columns[std::min<std::size_t>(3, columns.size() - 1)]);  // some minutes
-  double score = scoreOf(lagsOf(best, set), evidence_.runs(), of);
+  double score = scoreOf(tried(best), evidence_.runs(), of);
   for (int round = 0; round < 4; ++round) {
     bool changed = false;
     for (std::size_t i = 0; i < per_input.size(); ++i) {
@@ -213,7 +223,7 @@ PlainCandidates::Columns PlainCandidates::fewLags(const std::vector<Columns>& pe
         if (best[i] == column) continue;
         Columns trial = best;
         trial[i] = column;
-        const double here = scoreOf(lagsOf(trial, set), evidence_.runs(), of);
+        const double here = scoreOf(tried(trial), evidence_.runs(), of);
         if (here >= score) continue;
         score = here;
         best = std::move(trial);
@@ -222,7 +232,44 @@ PlainCandidates::Columns PlainCandidates::fewLags(const std::vector<Columns>& pe
     }
     if (!changed) break;
   }
-  return best;
+  return tried(best);
+}
+
+const Candidate& PlainCandidates::sharedLags(const Set& set, double power, std::ptrdiff_t of) {
+  const auto tried = [&](const std::vector<double>& taus_s) -> const Candidate& {
+    Columns columns;
+    for (const std::size_t i : set) {
+      const Columns own = columnsOf(i, power, taus_s);
+      columns.insert(columns.end(), own.begin(), own.end());
+    }
+    return lagsOf(Method::SharedLags, columns, set, taus_s.size());
+  };
+  double score = std::numeric_limits<double>::infinity();
+  std::vector<double> best;
+  const auto consider = [&](std::vector<double> taus_s) {
+    const double here = scoreOf(tried(taus_s), evidence_.runs(), of);
+    if (here >= score) return false;
+    score = here;
+    best = std::move(taus_s);
+    return true;
+  };
+  for (const double tau_s : options_.few_lag_taus_s) consider({tau_s});
+  const std::vector<double> first = best;
+  // The second one: any beside the best single one, then each in turn until none changes.
+  for (const double tau_s : options_.few_lag_taus_s)
+    if (tau_s != first.front()) consider({first.front(), tau_s});
+  for (bool changed = best.size() > 1; changed;) {
+    changed = false;
+    for (std::size_t k = 0; k < best.size(); ++k) {
+      for (const double tau_s : options_.few_lag_taus_s) {
+        if (std::find(best.begin(), best.end(), tau_s) != best.end()) continue;
+        std::vector<double> trial = best;
+        trial[k] = tau_s;
+        changed = consider(std::move(trial)) || changed;
+      }
+    }
+  }
+  return tried(best);
 }
 
 std::vector<Candidate> responseMembers(const Dictionary& d, const Evidence& evidence,

@@ -5,6 +5,7 @@
 #include <map>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/thermal/method_evidence.h"
@@ -34,20 +35,23 @@ class PlainCandidates {
   void takeWhole(std::ptrdiff_t of);
   void addWhole(const Set& set, double power);
   [[nodiscard]] Columns columnsOf(std::size_t input, double power, const std::vector<double>& taus_s) const;
-  [[nodiscard]] Candidate make(Method method, Columns columns, const Set& set, double shrinkage) const;
+  [[nodiscard]] Candidate make(Method method, Columns columns, const Set& set, double shrinkage,
+                               std::size_t time_constants = 0) const;
   void keep(Candidate c);
-  const Candidate& lagsOf(const Columns& columns, const Set& set);
+  const Candidate& lagsOf(Method method, const Columns& columns, const Set& set, std::size_t time_constants);
   /// One time constant per input, one input after the other until none changes.
-  Columns fewLags(const std::vector<Columns>& per_input, const Set& set, std::ptrdiff_t of);
+  const Candidate& fewLags(const std::vector<Columns>& per_input, const Set& set, std::ptrdiff_t of);
+  /// One or two time constants that all inputs share, from the best single one on until none changes.
+  const Candidate& sharedLags(const Set& set, double power, std::ptrdiff_t of);
 
   const response::Dictionary& d_;
   const Evidence& evidence_;
   const std::vector<std::string>& names_;
   const MethodChoiceOptions& options_;
   std::vector<double> powers_;
-  std::map<Set, std::vector<std::size_t>> visited_;  ///< places in `all`
-  std::vector<std::size_t> whole_;                   ///< the sets of all, places in `all`
-  std::map<Columns, Candidate> tried_;               ///< combinations of time constants
+  std::map<Set, std::vector<std::size_t>> visited_;        ///< places in `all`
+  std::vector<std::size_t> whole_;                         ///< the sets of all, places in `all`
+  std::map<std::pair<Method, Columns>, Candidate> tried_;  ///< combinations of time constants
 };
 
 /// The members of core/thermal/response_fit.h on all inputs; their projection onto few is as good.

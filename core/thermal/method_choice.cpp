@@ -57,6 +57,8 @@ std::string nameOf(Method method) {
       return "line";
     case Method::FewLags:
       return "few time constants";
+    case Method::SharedLags:
+      return "shared time constants";
     case Method::Ridge:
       return "ridge";
     case Method::Response:
@@ -277,7 +279,7 @@ MethodChoiceResult chooseWithin(const TimeSeries& series, const std::string& out
     projected.model.kind = result.model.kind;
     result.model = std::move(projected.model);
   }
-  for (const Method method : {Method::Line, Method::FewLags, Method::Ridge}) {
+  for (const Method method : {Method::Line, Method::FewLags, Method::SharedLags, Method::Ridge}) {
     const auto of_method = [&](const Candidate& c) { return c.method == method; };
     if (std::none_of(plain.all.begin(), plain.all.end(), of_method)) continue;
     result.methods.push_back(

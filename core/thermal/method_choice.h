@@ -7,10 +7,13 @@
 //   line        offset and a gain for each of a few inputs, no memory;
 //   few lags    one time constant per input, chosen from a fine grid (the output-error structure with one pole per
 //               input);
+//   shared lags one or two time constants that all inputs share, from the same grid (the structure of ARX, whose inputs
+//               have one denominator, fitted to free runs and not to the next row);
 //   ridge       a dense grid of time constants per input, gains shrunk by a ridge of several strengths;
 //   response    core/thermal/response_fit.h: drifting zero, physical prior of the gains; of many inputs the few that
 //               tell what all of them tell (core/thermal/input_projection.h).
-// The first three are tried on every set of inputs (up to four inputs) or along a forward selection; of more than four,
+// All but the last are tried on every set of inputs (up to four inputs), or, without the shared ones, along a forward
+// selection; of more than four,
 // line and ridge on all temperatures and on all inputs too, which no search picked (they count as one input): what many
 // noisy sensors have in common is told best by all of them. What is chosen is
 // projected in the same way if it uses more inputs than ProjectionOptions::maximum_inputs.
@@ -34,9 +37,12 @@
 // scatter, which grows where the inputs leave what was seen; scaled so that errors and intervals agree in the runs that
 // judged, and in those alone that predict all that comes after them, for `response` as for the others. Source: Bates
 // and Granger 1969; Yao et al. 2018 (stacking and pseudo-BMA); Tashman 2000 (rolling origins); Varma and Simon 2006
-// (nested cross-validation); Akaike 1970 (final prediction error). ARX and output error are no candidates: in records
-// of hours most ARX models have no equivalent in lags and output error has too few rows before the origins, and where
-// both could be judged the average was not better with them (tests/benchmarks/thermal/choice_study.cpp). Failure:
+// (nested cross-validation); Akaike 1970 (final prediction error). The equation
+// error of ARX and the continuous poles of output error are no candidates, their structures are: in records of hours
+// most ARX models have no equivalent in lags and output error has too few rows before the origins. Shared lags make
+// records of two to four inputs better and those of a dozen not, where a forward selection has more to choose by
+// chance; fits to whitened rows, as ARX weighs them, and a prior against each coefficient make none better
+// (tests/benchmarks/thermal/choice_study.cpp). Failure:
 // InputError as fitResponse; FitStatus Degenerate if nothing could be determined.
 #pragma once
 
@@ -79,7 +85,7 @@ struct MethodChoiceOptions {
 
 /// What blocked evidence says of one method.
 struct MethodEvidence {
-  std::string method;         ///< "line", "few time constants", "ridge", "response"
+  std::string method;         ///< "line", "few time constants", "shared time constants", "ridge", "response"
   double left_out_rms = 0.0;  ///< geometric mean over the runs inside the training range, unit of the output
   double weight = 0.0;        ///< share of the model
 };

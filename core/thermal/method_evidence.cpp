@@ -207,9 +207,8 @@ double Evidence::logExpected(const Candidate& c, const Solution& s, const Run* r
   const double independent = of_means > 0.0 ? std::clamp(static_cast<double>(count * count) * mean_square / of_means,
                                                          static_cast<double>(count), rows)
                                             : rows;
-  double coefficients = static_cast<double>(s.w.size());
+  double coefficients = static_cast<double>(s.w.size()) + static_cast<double>(c.time_constants);
   for (Index k = 1; k < s.inverse.rows(); ++k) coefficients -= c.precision[k - 1] * s.inverse(k, k);
-  if (c.method == Method::FewLags) coefficients *= 2.0;  // each with a time constant
   const double part = std::min(0.9, coefficients / independent);
   return std::log(mean_square * (1.0 + part) / (1.0 - part) + floor_);
 }

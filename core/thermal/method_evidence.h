@@ -22,7 +22,7 @@
 
 namespace spindrift::choice {
 
-enum class Method { Line, FewLags, Ridge, Response };
+enum class Method { Line, FewLags, SharedLags, Ridge, Response };
 
 /// One fit on a part of the training range and free run over the rest. Normal matrices of (1, features, y).
 struct Run {
@@ -38,6 +38,7 @@ struct Candidate {
   std::vector<Eigen::Index> columns;  ///< of the dictionary
   Eigen::VectorXd precision;
   std::vector<std::size_t> inputs;  ///< numbers of the usable inputs
+  std::size_t time_constants = 0;   ///< that were chosen for the record too
   /// Inputs that a search picked among others, which makes the candidate less probable; all of them are no pick.
   std::size_t picked = 0;
   std::vector<double> log_error;  ///< ln of the mean squared error of every run

@@ -11813,6 +11813,8 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>{}, table at {:g}°</source>
         <translation>{}, Tisch bei {:g}°</translation>
+        <source>shared time constants</source>
+        <translation>gemeinsame Zeitkonstanten</translation>
     </message>
 </context>
 <context>

@@ -2,10 +2,12 @@
 // The model that `thermal identify` chooses beside straight lines, the lagged ridge regression, ARX and output error:
 // error of the free run over the last 40 % of a record, trained on the rest, and how often the 95 % interval holds it.
 // `choice_study [SEEDS [FAMILY [FIRST]]]`: made records, default 40 of every family from seed 0. Families: `frame`
-// (tests/support/frame_run.h), `spindle` (tests/support/spindle_run.h), `bodies`, `sensors`, `oe`, `arx` (what the
-// height of tests/support/printer_run.h follows; its heaters by seed: soak, steps, hotter in the last part), `higher`
-// (those alone that get hotter, bodies), or `all`.
+// (tests/support/frame_run.h), `gantry` (tests/support/gantry_run.h), `spindle` (tests/support/spindle_run.h),
+// `bodies`, `sensors`, `oe`, `arx` (what the height of tests/support/printer_run.h follows; its heaters by seed: soak,
+// steps, hotter in the last part), `higher` (those alone that get hotter, bodies), or `all`.
+//
 // `choice_study LOG.csv OUTPUT[,OUTPUT] [PART]`: one record, trained on this part of it (default 0.6).
+//
 // `choice_study LOG.csv OUTPUT subsets`: the same record with every set of its temperatures (at most six), trained on
 // 50, 60 and 70 % of it, all rows and every fifth one.
 #include <Eigen/Dense>
@@ -23,6 +25,7 @@
 #include "core/math/statistics.h"
 #include "core/workflows/thermal_workflow.h"
 #include "tests/support/frame_run.h"
+#include "tests/support/gantry_run.h"
 #include "tests/support/printer_run.h"
 #include "tests/support/spindle_run.h"
 
@@ -145,6 +148,7 @@ void print(const std::string& name, Figures& f) {
 
 TimeSeries made(const std::string& family, std::uint64_t seed) {
   if (family == "frame") return spindrift::testing::frameRun(seed);
+  if (family == "gantry") return spindrift::testing::gantryRun(seed);
   if (family == "spindle") return spindrift::testing::spindleRun(seed);
   const auto heat = static_cast<PrinterHeat>(seed % 3);
   if (family == "bodies") return spindrift::testing::printerRun(seed, PrinterHeight::Bodies, heat);
@@ -152,7 +156,8 @@ TimeSeries made(const std::string& family, std::uint64_t seed) {
   if (family == "oe") return spindrift::testing::printerRun(seed, PrinterHeight::OutputError, heat);
   if (family == "arx") return spindrift::testing::printerRun(seed, PrinterHeight::Arx, heat);
   if (family == "higher") return spindrift::testing::printerRun(seed, PrinterHeight::Bodies, PrinterHeat::Higher);
-  throw InputError("\"" + family + "\" is no family; allowed: frame, spindle, bodies, sensors, oe, arx, higher, all.");
+  throw InputError("\"" + family +
+                   "\" is no family; allowed: frame, gantry, spindle, bodies, sensors, oe, arx, higher, all.");
 }
 
 /// All figures of a family in one line, and who won where the choice lost.
@@ -245,7 +250,7 @@ int run(int argc, char** argv) {
   const std::string asked = argc > 2 ? argv[2] : "all";
   const int first = argc > 3 ? std::atoi(argv[3]) : 0;
   std::vector<std::string> families = {asked};
-  if (asked == "all") families = {"frame", "spindle", "bodies", "sensors", "oe", "arx", "higher"};
+  if (asked == "all") families = {"frame", "gantry", "spindle", "bodies", "sensors", "oe", "arx", "higher"};
   std::vector<Figures> together;
   for (const std::string& family : families) {
     std::vector<Figures> all;

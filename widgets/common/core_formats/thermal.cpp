@@ -107,6 +107,7 @@ std::span<const char* const> spindrift::gui::core_formats::thermal() noexcept {
     QT_TRANSLATE_NOOP("core", "replaying the campaign"),
     QT_TRANSLATE_NOOP("core", "ridge regression on delayed inputs, forward selection"),
     QT_TRANSLATE_NOOP("core", "rows of two numbers for every input"),
+    QT_TRANSLATE_NOOP("core", "shared time constants"),
     QT_TRANSLATE_NOOP("core", "sharpness and odds of the choice between methods must be positive."),
     QT_TRANSLATE_NOOP("core", "static regression on all temperatures"),
     QT_TRANSLATE_NOOP("core", "temperature unit \"{}\" is not known; allowed: degC, K, degF."),
