@@ -40,7 +40,7 @@ struct WeightedDynamics {
 };
 
 /// `fit` and the same effects with other main drivers of the catalogue, whose weights are worth mentioning; heaviest
-/// first, weights add up to 1.
+/// first, weights add up to 1. A load that had not ended when the last state was fitted ends there.
 [[nodiscard]] std::vector<WeightedDynamics> alternativeDynamics(const EffectSearch& search,
                                                                 const ResidualProblem& problem,
                                                                 const DriverTable& drivers, const JointFit& fit);

@@ -151,9 +151,15 @@ bool EffectSearch::admissible(const ModelTerm& term, const Eigen::VectorXd& gain
       const double origin = own[0] != 0.0 ? -1000.0 * own[1] / own[0] : effect.origin_low_mm - 1.0;
       if (origin < effect.origin_low_mm || origin > effect.origin_high_mm) return false;
     }
-    for (std::size_t c = 0; c < effect.largest_ratio.size(); ++c) {
+    double to = 0.0;
+    bool seen = true;
+    for (const std::size_t column : effect.ratio_to) {
+      to += own[static_cast<Index>(column)];
+      seen = seen && !shape(effect).col(static_cast<Index>(column)).isZero(0.0);
+    }
+    for (std::size_t c = 0; seen && c < effect.largest_ratio.size(); ++c) {
       const double most = effect.largest_ratio[c];
-      if (most > 0.0 && std::abs(own[static_cast<Index>(c)]) > most * std::abs(own[0])) return false;
+      if (most > 0.0 && std::abs(own[static_cast<Index>(c)]) > most * std::abs(to)) return false;
     }
   }
   // What one state alone shows is no load but a state that went wrong.

@@ -68,8 +68,10 @@ struct Effect {
   bool free_origin = false;
   double origin_low_mm = 0.0;
   double origin_high_mm = 0.0;
-  /// |gain of shape column k| <= largest_ratio[k] x |gain of column 0|, 0: free. Empty: all free.
+  /// |gain of shape column k| <= largest_ratio[k] x |sum of the gains of the columns `ratio_to`|, 0: free. Empty: all
+  /// free, as all are where nothing is observed that one of these columns moves.
   std::vector<double> largest_ratio;
+  std::vector<std::size_t> ratio_to{0};
   std::optional<std::array<double, 2>> tau_s;  ///< bounds of its lags; empty: as the observations allow
   double least_lag_s = 0.0;                    ///< what takes up heat needs so long; 0: it may follow at once
   bool own = false;                            ///< comes from a file of the user's

@@ -61,7 +61,17 @@ inline MachineDescription machine() {
   return MachineDescription::parse(JsonNode::parse(machine_json, "machine.json"), "machine.json");
 }
 
-enum class Hidden { Nothing, SpindleDrift, DriftThatLifts, Screw, ScrewWhereItTravels, Slip, Wave, TurnAndDrift };
+enum class Hidden {
+  Nothing,
+  SpindleDrift,
+  DriftThatLifts,
+  Screw,
+  ScrewWhereItTravels,
+  Slip,
+  Wave,
+  TurnAndDrift,
+  LoadThatLasts
+};
 
 /// `hidden_signal` takes what is hidden in every row, without noise, um.
 inline DiscrepancyInput campaign(Hidden hidden, std::uint64_t seed, double strength = 5.0,
@@ -125,6 +135,17 @@ inline DiscrepancyInput campaign(Hidden hidden, std::uint64_t seed, double stren
           case Hidden::Wave:
             if (c == 0) truth += 1.4 * strength * sigma * std::sin(o.time_s / 500.0);
             break;
+          case Hidden::LoadThatLasts: {
+            // Sun on the head, from state 17 on until the first that is held out, through two lags.
+            const auto warm = [&](double since_s) {
+              const double slow = std::max(0.0, since_s);
+              return 1.0 - 0.6 * std::exp(-slow / 900.0) - 0.4 * std::exp(-slow / 2700.0);
+            };
+            const double begin_s = plant.time[17 * 44];
+            const double end_s = plant.time[26 * 44];
+            if (c == 2) truth += strength * sigma * (warm(o.time_s - begin_s) - warm(o.time_s - end_s));
+            break;
+          }
           case Hidden::TurnAndDrift: {
             // The frame turns about X with a body that follows the room; the spindle drifts along Y with its own heat.
             const double turn = 5.0 * strength * sigma * plant.table[at];

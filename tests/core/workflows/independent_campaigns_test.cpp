@@ -42,8 +42,21 @@ INSTANTIATE_TEST_SUITE_P(Made, IndependentCampaign,
                          ::testing::Values("two_effects", "three_effects", "outside_the_catalogue",
                                            "together_ball_screw", "together_slip", "heavy_tails", "warm_at_the_start",
                                            "nothing", "nothing_together", "together_coolant", "together_rotation",
-                                           "three_with_the_sun"),
+                                           "three_with_the_sun", "load_that_ended_unseen", "part_far_off"),
                          [](const auto& test) { return std::string(test.param); });
+
+TEST(IndependentCampaigns, WhatIsCertainKeepsItsNameBesideTwoThatAreNotFound) {
+  // A head that tilts, in three components, beside a load and a drift along Z, which nobody tells apart: it was not
+  // named either, as it might have imitated what they leave.
+  DiscrepancyRequest request;
+  request.campaign = testing::testData() / "independent" / "tilt_and_more";
+  JobContext job;
+  const DiscrepancyResult result = runDiscrepancy(request, job).result;
+  ASSERT_EQ(result.effects.size(), 1U) << result.message;
+  EXPECT_EQ(result.effects.front().id, "head.tilt.a");
+  EXPECT_EQ(result.verdict, DiscrepancyVerdict::Named);
+  EXPECT_NE(result.leftover, "");
+}
 
 }  // namespace
 }  // namespace spindrift
