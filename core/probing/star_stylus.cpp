@@ -41,14 +41,4 @@ double spindleDrift(const Eigen::Vector3d& before_mm, const Eigen::Vector3d& aft
   return (after_mm - before_mm).norm();
 }
 
-Eigen::Matrix3d ignoredTranslationBias(const StylusCentres& before_mm) {
-  Eigen::Matrix3d bias;
-  for (int k = 0; k < 3; ++k) {
-    StylusCentres moved = before_mm;
-    for (Eigen::Vector3d& centre : moved) centre += Eigen::Vector3d::Unit(k);
-    bias.col(k) = closedFormRotation(before_mm, moved).rotation_rad;
-  }
-  return bias;
-}
-
 }  // namespace spindrift

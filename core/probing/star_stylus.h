@@ -4,8 +4,7 @@
 // x_i, y_i, z_i: position of stylus centre i from the centre of rotation; o before, n after the machine warmed up. As
 // algebra (7)-(9) are right for a small rotation a: n = o + a x o, when stylus 0 lies on the axis (x0 = y0 = 0 is not
 // needed) and the equations used are independent. They ignore every translation: a displacement t of all three centres
-// is taken for a rotation. `ignoredTranslationBias` shows how much; the least squares of ball_cycle.h has no such bias.
-// mm, rad.
+// is taken for a rotation; the least squares of ball_cycle.h has no such bias. mm, rad.
 #pragma once
 
 #include <Eigen/Core>
@@ -29,8 +28,5 @@ struct HeadRotation {
 
 /// (10): distance that the centre of stylus 0 has moved, mm.
 [[nodiscard]] double spindleDrift(const Eigen::Vector3d& before_mm, const Eigen::Vector3d& after_mm);
-
-/// Columns: rotation (rad) that (7)-(9) report for a translation of 1 mm along X, Y, Z without any rotation.
-[[nodiscard]] Eigen::Matrix3d ignoredTranslationBias(const StylusCentres& before_mm);
 
 }  // namespace spindrift

@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Geometry>
-#include <Eigen/LU>
 #include <cmath>
 
 #include "core/base/units.h"
@@ -115,13 +113,6 @@ std::vector<VolumetricArrow> volumetricArrows(const BallCycleModel& model, const
     }
   }
   return arrows;
-}
-
-Eigen::Vector3d screwErrorByMirrorImage(const Eigen::Vector3d& D_mm, const Eigen::Vector3d& place_mm,
-                                        const Eigen::Vector3d& rotation_rad, const Eigen::Vector3d& drift_mm) {
-  // (4): D = drift + a x place + (I + [a]x) d
-  const Eigen::Vector3d rest = D_mm - drift_mm - rotation_rad.cross(place_mm);
-  return (Eigen::Matrix3d::Identity() + crossMatrix(rotation_rad)).lu().solve(rest);
 }
 
 }  // namespace spindrift

@@ -53,10 +53,4 @@ struct VolumetricArrow {
                                                             const MachineDescription& machine,
                                                             const Eigen::Vector3d& tool_offset_mm, int per_axis = 5);
 
-/// (11)-(12), "mirror image": screw errors that remain at a place when rotation and drift are taken off a volumetric
-/// error, d = A^-1 D, mm. `D_mm` = measured volumetric error, `rotation_rad` and `drift_mm` as found.
-[[nodiscard]] Eigen::Vector3d screwErrorByMirrorImage(const Eigen::Vector3d& D_mm, const Eigen::Vector3d& place_mm,
-                                                      const Eigen::Vector3d& rotation_rad,
-                                                      const Eigen::Vector3d& drift_mm);
-
 }  // namespace spindrift

@@ -291,31 +291,6 @@ SelectionResult selectByGroupLasso(const TimeSeries& series, const std::string& 
   return result;
 }
 
-SelectionResult selectForward(const TimeSeries& series, const std::string& output,
-                              const std::vector<std::string>& candidates, double from_s, double to_s,
-                              const SelectionOptions& options, const JobContext& job) {
-  const Groups g = prepare(series, output, candidates, from_s, to_s, options);
-  std::vector<std::size_t> kept;
-  double best = 1e300;
-  while (static_cast<int>(kept.size()) < options.maximum_inputs) {
-    std::vector<double> errors(g.X.size(), 1e300);
-    parallelFor(g.X.size(), job, [&](std::size_t k) {
-      if (std::find(kept.begin(), kept.end(), k) != kept.end()) return;
-      std::vector<std::size_t> trial = kept;
-      trial.push_back(k);
-      errors[k] = heldOut(g, trial, options.blocks);
-    });
-    const auto winner = std::min_element(errors.begin(), errors.end());
-    if (*winner > 0.99 * best) break;
-    best = *winner;
-    kept.push_back(static_cast<std::size_t>(winner - errors.begin()));
-  }
-  SelectionResult result;
-  result.method = "forward by held-out error";
-  explain(g, kept, {}, stability(g, kept.size(), options, job), options, result);
-  return result;
-}
-
 std::vector<SensorCluster> clusterSensors(const TimeSeries& series, const std::vector<std::string>& names, int count) {
   std::vector<std::vector<double>> change;
   std::vector<double> range;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which inputs a model needs, and why: group LASSO over the lags of each input (TALC, P1), forward selection by
-// held-out error as the plain alternative, stability under resampling, and clusters of sensors that tell the same (P4's
-// three groups).
+// Which inputs a model needs, and why: group LASSO over the lags of each input (TALC, P1), stability under resampling,
+// and clusters of sensors that tell the same (P4's three groups).
 //
 // Group LASSO: minimise 1/(2n) |y - sum_g X_g w_g|^2 + lambda sum_g sqrt(p_g) |w_g| with every group orthonormalised,
 // so that an input enters with all its lags or not at all. Block coordinate descent on a path of lambda; the lambda
@@ -27,7 +26,6 @@ struct SelectionOptions {
   int blocks = 6;            ///< of time, for held-out error
   int resamples = 24;        ///< for stability
   double stable_from = 0.5;  ///< frequency from which an input counts as stable
-  int maximum_inputs = 12;   ///< of forward selection
   std::uint64_t seed = 1;
 };
 
@@ -50,9 +48,6 @@ struct SelectionResult {
 [[nodiscard]] SelectionResult selectByGroupLasso(const TimeSeries& series, const std::string& output,
                                                  const std::vector<std::string>& candidates, double from_s, double to_s,
                                                  const SelectionOptions& options, const JobContext& job);
-[[nodiscard]] SelectionResult selectForward(const TimeSeries& series, const std::string& output,
-                                            const std::vector<std::string>& candidates, double from_s, double to_s,
-                                            const SelectionOptions& options, const JobContext& job);
 
 /// Sensors grouped by what they tell: average linkage on the rms difference of their changes, relative to the larger of
 /// both changes.

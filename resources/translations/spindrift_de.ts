@@ -3925,10 +3925,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Fokus {}</translation>
     </message>
     <message>
-        <source>forward by held-out error</source>
-        <translation>vorwärts nach dem Fehler der Validierungsdaten</translation>
-    </message>
-    <message>
         <source>found &apos;{}&apos; in the header; allowed: format, element, property, comment.</source>
         <translation>gefunden &apos;{}&apos; im Kopf; zulässig: format, element, property, comment.</translation>
     </message>
@@ -11811,10 +11807,12 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Nach der Maschinenbeschreibung ist das Modell ihrer Scans {}. Unter einem anderen Scanmodell sind die Abweichungen um mehr falsch, als ihre Unsicherheit angibt.</translation>
     </message>
     <message>
-        <source>{}, table at {:g}°</source>
-        <translation>{}, Tisch bei {:g}°</translation>
         <source>shared time constants</source>
         <translation>gemeinsame Zeitkonstanten</translation>
+    </message>
+    <message>
+        <source>{}, table at {:g}°</source>
+        <translation>{}, Tisch bei {:g}°</translation>
     </message>
 </context>
 <context>

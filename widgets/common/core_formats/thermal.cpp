@@ -63,7 +63,6 @@ std::span<const char* const> spindrift::gui::core_formats::thermal() noexcept {
     QT_TRANSLATE_NOOP("core", "constant in the training range: its effect cannot be learnt from these data; train on a range in which it changes"),
     QT_TRANSLATE_NOOP("core", "few time constants"),
     QT_TRANSLATE_NOOP("core", "first-order ARX on two inputs"),
-    QT_TRANSLATE_NOOP("core", "forward by held-out error"),
     QT_TRANSLATE_NOOP("core", "group LASSO"),
     QT_TRANSLATE_NOOP("core", "has no rows."),
     QT_TRANSLATE_NOOP("core", "held-out error changes by {:+.0f} % without it; chosen in {:.0f} % of the resamples"),

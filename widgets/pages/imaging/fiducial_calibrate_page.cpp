@@ -52,7 +52,7 @@ FiducialCalibratePage::FiducialCalibratePage(PageContext page_context, QWidget* 
   addAction(evaluate_);
   auto* tiles = new Card;
   auto* line = new QHBoxLayout;
-  line->setSpacing(24);
+  line->setSpacing(16);
   pixel_ = new NumberTile(tr("Pixel length"));
   centre_ = new NumberTile(tr("Centre of rotation in the image"));
   axes_ = new NumberTile(tr("Angle from X to Y"));
