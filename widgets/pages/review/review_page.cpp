@@ -255,7 +255,7 @@ void ReviewPage::readOther(std::int64_t id, const QString& name, CampaignSource 
 void ReviewPage::takeOther(std::int64_t id, std::shared_ptr<const CampaignState> state) {
   sources_.take(id, std::move(state));
   for (ReviewPane* pane : panes_) pane->refresh(session().campaignId());
-  sayWhatIsOutdated();
+  if (!states_.empty()) sayWhatIsOutdated();
   showAll();
 }
 

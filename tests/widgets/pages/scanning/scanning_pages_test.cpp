@@ -206,7 +206,10 @@ TEST_F(ScanningPages, APartIsPaintedAwayAndTakenBack) {
   // The evaluation leaves the part out, and undo brings everything back as it was.
   go<ProfilerCalibrationPage>(StepId::Calibrate);
   press();
-  EXPECT_EQ(window_->workflow().status(StepId::Calibrate).state, StepState::Current);
+  // It is done, and says what the calibration leaves open.
+  EXPECT_EQ(window_->workflow().status(StepId::Calibrate).state, StepState::Attention);
+  EXPECT_TRUE(window_->workflow().status(StepId::Calibrate).sentence.contains(QStringLiteral("leaves open")))
+      << window_->workflow().status(StepId::Calibrate).sentence.toStdString();
   for (int i = 0; i < 3; ++i) window_->undoStack().undo();
   EXPECT_TRUE(window_->session().excluded().empty());
   page = go<ScanCapturePage>(StepId::Capture);
