@@ -43,8 +43,9 @@ constexpr double uneven_bodies = 0.75;
 constexpr double instead_as_well = 6.0;
 /// Of a course or a pattern another may leave this part of its power and is still the same to the eye of the data.
 constexpr double alike = 0.03;
-/// In evidence: an effect that is so much more probable than an unknown cause in its place may leave as much as any
-/// may, twice as probable twice as much: what else is there has its own time history.
+/// In evidence: an effect whose driver is in the log, and that is so much more probable than an unknown cause in its
+/// place, may leave as much as any may; with twice that evidence twice as much: what else is there has its own time
+/// history.
 constexpr double told_from_the_rest = 20.0;
 /// Rivals beside the effect; more is no answer.
 constexpr std::size_t most_rivals = 2;
@@ -533,9 +534,10 @@ Judgement judge(const ResidualProblem& problem, const EffectSearch& search, cons
       if (imitates[t]) continue;
       const SlotEvidence& slot = posterior.slots[t];
       over_unknown[t] = overUnknown(posterior, {t}, imitates);
-      const double surely = std::min(slot.over_noise, over_unknown[t]);
-      ratios[t] = std::max(uneven_bodies * patterns[t], imitationRatio(problem, search, fit, t, remainder, imitates) /
-                                                            std::max(1.0, surely / told_from_the_rest));
+      double beside = imitationRatio(problem, search, fit, t, remainder, imitates);
+      if (drivenByLog(fit.terms[t]) && !drivenByStandIn(fit.terms[t]))
+        beside /= std::max(1.0, std::min(slot.over_noise, over_unknown[t]) / told_from_the_rest);
+      ratios[t] = std::max(uneven_bodies * patterns[t], beside);
       // What smooth courses in simple patterns cannot take up, whatever their size, imitates nothing that drifts.
       const bool beyond_drifts = fit.terms[t].effect->own && over_unknown[t] > remainder_evidence;
       const double known = 1.0 / (1.0 + std::pow(ratios[t] / (beyond_drifts ? 1.0 : priors.imitation), 4));

@@ -57,7 +57,9 @@ void frame(const CatalogueContext& context, std::vector<Effect>& out) {
                      }},
                     constantShape(static_cast<Component>(u)),
                     constantShape(static_cast<Component>(v))};
-    effect.largest_ratio = {0.0, farthest_m[static_cast<std::size_t>(v)], farthest_m[static_cast<std::size_t>(u)]};
+    // Without the rotation the displacements alone say little of where the axis is.
+    if (context.rotations)
+      effect.largest_ratio = {0.0, farthest_m[static_cast<std::size_t>(v)], farthest_m[static_cast<std::size_t>(u)]};
     addLagVariants(effect, temperatures);
     effect.driver_missing = temperatures.empty();
     out.push_back(std::move(effect));
