@@ -187,6 +187,21 @@ void addScatter(const ResidualProblem& problem, const Eigen::VectorXd& spread, d
   for (Eigen::VectorXd& column : columns) values.push_back(std::move(column));
 }
 
+/// A load without a driver that was still there when the last state was fitted: nobody knows when it ends. No more heat
+/// is predicted than was seen; what it has warmed cools from then on.
+void endWhatWasNotSeen(const ResidualProblem& problem, JointFit& fit) {
+  const double last_s = *std::max_element(problem.time_s.begin(), problem.time_s.end());
+  for (ModelTerm& term : fit.terms) {
+    std::size_t next = 0;
+    for (const EffectInput& input : term.variant.inputs) {
+      const auto begin = term.parameters.begin() + static_cast<std::ptrdiff_t>(term.variant.shared_lag ? 0 : next);
+      next += static_cast<std::size_t>(parameterCount({{input}, false}));
+      if (input.dynamics != Dynamics::Pulse || !input.driver.empty()) continue;
+      begin[1] = std::min(begin[1], std::max(0.0, last_s - begin[0]));
+    }
+  }
+}
+
 }  // namespace
 
 DistributedFit distributedDynamics(const EffectSearch& search, const ResidualProblem& problem,
@@ -259,6 +274,7 @@ DistributedFit distributedDynamics(const EffectSearch& search, const ResidualPro
   if (count == 0) {
     out.log_evidence -= 0.5 * fit.chi2;
     for (const Eigen::VectorXd& gains : fit.gains) out.prior_sigma.emplace_back(Eigen::VectorXd::Zero(gains.size()));
+    endWhatWasNotSeen(problem, out.fit);
     return out;
   }
   Eigen::MatrixXd raw(problem.size(), free_count + count);
@@ -323,6 +339,7 @@ DistributedFit distributedDynamics(const EffectSearch& search, const ResidualPro
     out.fit.contribution[t] = search.columns(term) * gains;
     out.prior_sigma.push_back(prior);
   }
+  endWhatWasNotSeen(problem, out.fit);
   return out;
 }
 

@@ -28,8 +28,9 @@ struct DistributedFit {
   double log_evidence = 0.0;                 ///< logarithm of the marginal likelihood, up to what all fits share
 };
 
-/// Under the problem's present nuisances. A fit without lags comes back as it is. `width` > 0: that is
-/// the s of all that comes in, and all that is in stays free.
+/// Under the problem's present nuisances. A fit without lags comes back as it is, but a load that had not ended when
+/// the last state was fitted ends there. `width` > 0: that is the s of all that comes in, and all that is in stays
+/// free.
 [[nodiscard]] DistributedFit distributedDynamics(const EffectSearch& search, const ResidualProblem& problem,
                                                  const DriverTable& drivers, const JointFit& fit, double width = 0.0);
 
@@ -40,7 +41,7 @@ struct WeightedDynamics {
 };
 
 /// `fit` and the same effects with other main drivers of the catalogue, whose weights are worth mentioning; heaviest
-/// first, weights add up to 1. A load that had not ended when the last state was fitted ends there.
+/// first, weights add up to 1.
 [[nodiscard]] std::vector<WeightedDynamics> alternativeDynamics(const EffectSearch& search,
                                                                 const ResidualProblem& problem,
                                                                 const DriverTable& drivers, const JointFit& fit);

@@ -144,21 +144,6 @@ ModelEffect averagedEffect(const std::vector<ModelEffect>& versions, const std::
   return out;
 }
 
-/// A load without a driver that was still there when the last state was fitted: nobody knows when it ends. No more heat
-/// is predicted than was seen; what it has warmed cools from then on.
-void endWhatWasNotSeen(const ResidualProblem& problem, JointFit& fit) {
-  const double last_s = *std::max_element(problem.time_s.begin(), problem.time_s.end());
-  for (ModelTerm& term : fit.terms) {
-    std::size_t next = 0;
-    for (const EffectInput& input : term.variant.inputs) {
-      const auto begin = term.parameters.begin() + static_cast<std::ptrdiff_t>(term.variant.shared_lag ? 0 : next);
-      next += static_cast<std::size_t>(parameterCount({{input}, false}));
-      if (input.dynamics != Dynamics::Pulse || !input.driver.empty()) continue;
-      begin[1] = std::min(begin[1], std::max(0.0, last_s - begin[0]));
-    }
-  }
-}
-
 }  // namespace
 
 std::vector<WeightedDynamics> alternativeDynamics(const EffectSearch& search, const ResidualProblem& problem,
@@ -187,10 +172,7 @@ std::vector<WeightedDynamics> alternativeDynamics(const EffectSearch& search, co
   for (WeightedDynamics& w : out) w.weight = std::exp(w.distributed.log_evidence - best);
   std::erase_if(out, [](const WeightedDynamics& w) { return w.weight < least_weight; });
   for (const WeightedDynamics& w : out) sum += w.weight;
-  for (WeightedDynamics& w : out) {
-    w.weight /= sum;
-    endWhatWasNotSeen(problem, w.distributed.fit);
-  }
+  for (WeightedDynamics& w : out) w.weight /= sum;
   return out;
 }
 

@@ -534,13 +534,15 @@ Judgement judge(const ResidualProblem& problem, const EffectSearch& search, cons
       if (imitates[t]) continue;
       const SlotEvidence& slot = posterior.slots[t];
       over_unknown[t] = overUnknown(posterior, {t}, imitates);
-      double beside = imitationRatio(problem, search, fit, t, remainder, imitates);
-      if (drivenByLog(fit.terms[t]) && !drivenByStandIn(fit.terms[t]))
-        beside /= std::max(1.0, std::min(slot.over_noise, over_unknown[t]) / told_from_the_rest);
-      ratios[t] = std::max(uneven_bodies * patterns[t], beside);
+      const double beside = imitationRatio(problem, search, fit, t, remainder, imitates);
+      const double other_pattern = uneven_bodies * patterns[t];
+      ratios[t] = std::max(other_pattern, beside);
+      const bool driven = drivenByLog(fit.terms[t]) && !drivenByStandIn(fit.terms[t]);
+      const double surely = driven ? std::min(slot.over_noise, over_unknown[t]) / told_from_the_rest : 1.0;
+      const double doubtful = std::max(other_pattern, beside / std::max(1.0, surely));
       // What smooth courses in simple patterns cannot take up, whatever their size, imitates nothing that drifts.
       const bool beyond_drifts = fit.terms[t].effect->own && over_unknown[t] > remainder_evidence;
-      const double known = 1.0 / (1.0 + std::pow(ratios[t] / (beyond_drifts ? 1.0 : priors.imitation), 4));
+      const double known = 1.0 / (1.0 + std::pow(doubtful / (beyond_drifts ? 1.0 : priors.imitation), 4));
       const double there =
           probabilityAt(std::min({slot.delta_evidence, slot.over_noise, over_unknown[t] + unknown_price}));
       claim[t] = known * there;
