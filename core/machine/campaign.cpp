@@ -82,7 +82,7 @@ Campaign Campaign::read(const std::filesystem::path& folder) {
   if (const std::filesystem::path observations = own("observations.csv"); std::filesystem::exists(observations)) {
     campaign.observations = ObservationSet::read(observations);
     refusePositionsInMetres(*campaign.observations, campaign.machine);
-    campaign.observations->absolute = campaign.absolute;
+    campaign.observations.edit().absolute = campaign.absolute;
   }
   return campaign;
 }

@@ -7,6 +7,7 @@
 #include <set>
 #include <string>
 
+#include "core/base/shared_value.h"
 #include "core/machine/machine_description.h"
 #include "core/machine/observation.h"
 #include "core/machine/operating_log.h"
@@ -23,8 +24,8 @@ struct Campaign {
   std::filesystem::path effects;              ///< "effects.json" or empty; relative to the folder, or absolute
   std::filesystem::path simulator;            ///< "simulator.json" or empty; relative to the folder, or absolute
   MachineDescription machine;
-  std::optional<OperatingLog> log;
-  std::optional<ObservationSet> observations;  ///< the campaign's own observations.csv
+  SharedValue<OperatingLog> log;
+  SharedValue<ObservationSet> observations;  ///< the campaign's own observations.csv
   /// Captures the user took out, as the lists name them ("captures/images/a.jpg"): evaluations leave them out.
   std::set<std::string> excluded_captures;
 

@@ -104,7 +104,8 @@ nlohmann::json hiddenEffect(const JsonNode& options, std::uint64_t seed, JobCont
   writeCampaign(campaign.campaign, folder);
   const Campaign read = Campaign::read(folder);
   JobContext searching = job.part(0.3, 1.0);
-  const DiscrepancyRun run = searchDiscrepancy(read, read.observations.value(), search, searching);
+  SPINDRIFT_ASSERT(read.observations.has_value(), "a study measures something");
+  const DiscrepancyRun run = searchDiscrepancy(read, *read.observations, search, searching);
   nlohmann::json out = shortAnswer(run);
   out["hidden"] = made.hidden;
   std::vector<std::string> named;

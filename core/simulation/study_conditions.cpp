@@ -142,7 +142,7 @@ void scaleHidden(VirtualCampaign& campaign, const std::string& id, const Factor&
 
 /// Times restart from 0 where the log begins; the simulation counts from its first state.
 void cutBeginning(VirtualCampaign& campaign, double warm_s) {
-  for (Observation& row : campaign.campaign.observations->rows) row.time_s -= warm_s;
+  for (Observation& row : campaign.campaign.observations.edit().rows) row.time_s -= warm_s;
   std::map<std::pair<std::string, Component>, double> first;
   for (SimulatedRow& row : campaign.simulation) {
     row.time_s -= warm_s;
@@ -263,7 +263,7 @@ AppliedConditions applyConditions(VirtualCampaign& campaign, const StudyConditio
                                   std::uint64_t seed) {
   AppliedConditions applied;
   CampaignTruth& truth = campaign.truth;
-  std::vector<Observation>& rows = campaign.campaign.observations->rows;
+  std::vector<Observation>& rows = campaign.campaign.observations.edit().rows;
   if (c.warm_start && strength > 0.0) {
     for (const std::string& id : truth.hidden) {
       if (isBase(truth, id)) continue;

@@ -415,7 +415,7 @@ VirtualCampaign simulateCampaign(const Scenario& s, std::optional<std::uint64_t>
       for (Observation& row : rows) row.time_s += s.measurement->clock_offset_s;
     }
     campaign.observations = ObservationSet{};
-    campaign.observations->rows = std::move(rows);
+    campaign.observations.edit().rows = std::move(rows);
   }
   if (s.touches) {
     result.touched_artefact = s.touches->artefact;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <mutex>
 
 #include "core/base/error.h"
 #include "core/base/json_reader.h"
@@ -316,18 +317,43 @@ std::optional<ObservationSet> observationsAtHand(const Campaign& campaign, const
 std::optional<ObservationSet> observationsToFit(const Campaign& campaign, const StoredEvaluation* evaluation,
                                                 const ExcludedItems& excluded, const ClockOffsets& offsets) {
   std::optional<ObservationSet> set = observationsAtHand(campaign, evaluation, excluded, offsets);
-  if (set) leaveOutCompensated(*set, campaign.log);
+  if (set) leaveOutCompensated(*set, campaign.log.get());
   return set;
 }
 
-std::shared_ptr<const ObservationSet> sharedObservationsToFit(const std::shared_ptr<const Campaign>& campaign,
-                                                              const StoredEvaluation* evaluation,
-                                                              const ExcludedItems& excluded,
-                                                              const ClockOffsets& offsets) {
-  const bool marked = !excluded.empty() || (campaign->log && campaign->log->has(compensation_signal));
-  if (campaign->observations && !marked) return {campaign, &*campaign->observations};
-  auto set = observationsToFit(*campaign, evaluation, excluded, offsets);
-  return set ? std::make_shared<const ObservationSet>(std::move(*set)) : nullptr;
+/// What they are made of, and they themselves once they have been looked at.
+struct ObservationsToFit::Made {
+  std::shared_ptr<const Campaign> campaign;
+  std::shared_ptr<const StoredEvaluation> evaluation;
+  ExcludedItems excluded;
+  ClockOffsets offsets;
+  mutable std::once_flag once;
+  mutable std::shared_ptr<const ObservationSet> set;
+};
+
+ObservationsToFit::ObservationsToFit(std::shared_ptr<const Campaign> campaign,
+                                     std::shared_ptr<const StoredEvaluation> evaluation, ExcludedItems excluded,
+                                     ClockOffsets offsets) {
+  if (!campaign->observations && evaluation == nullptr) return;
+  auto made = std::make_shared<Made>();
+  made->campaign = std::move(campaign);
+  made->evaluation = std::move(evaluation);
+  made->excluded = std::move(excluded);
+  made->offsets = std::move(offsets);
+  made_ = std::move(made);
+}
+
+const std::shared_ptr<const ObservationSet>& ObservationsToFit::shared() const {
+  SPINDRIFT_ASSERT(made_ != nullptr, "there are no observations");
+  const Made& m = *made_;
+  std::call_once(m.once, [&m] {
+    const Campaign& campaign = *m.campaign;
+    const bool marked = !m.excluded.empty() || (campaign.log && campaign.log->has(compensation_signal));
+    m.set = campaign.observations && !marked ? campaign.observations.shared()
+                                             : std::make_shared<const ObservationSet>(*observationsToFit(
+                                                   campaign, m.evaluation.get(), m.excluded, m.offsets));
+  });
+  return m.set;
 }
 
 }  // namespace spindrift

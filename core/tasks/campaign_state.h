@@ -3,6 +3,7 @@
 // and the latest result of every kind. The window and the command line read it here.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <map>
@@ -114,7 +115,7 @@ struct CampaignState {
 [[nodiscard]] ClockOffsets clockOffsetsOf(const Session& session, std::int64_t campaign);
 /// What the user excluded of a campaign, as the session holds it now.
 [[nodiscard]] ExcludedItems excludedItems(const Session& session, std::int64_t campaign);
-/// The campaign without the captures that were excluded: to be worked on.
+/// The campaign without the captures that were excluded: to be worked on. Its readings are shared, not copied.
 [[nodiscard]] std::shared_ptr<const Campaign> withoutExcluded(const Campaign& campaign, const ExcludedItems& excluded);
 /// Marks what the user excluded; moves the times of observations whose clocks were not moved when they were read.
 void applyChoices(ObservationSet& set, const ExcludedItems& excluded, const ClockOffsets& offsets);
@@ -129,10 +130,32 @@ void applyChoices(ObservationSet& set, const ExcludedItems& excluded, const Cloc
                                                               const StoredEvaluation* evaluation,
                                                               const ExcludedItems& excluded,
                                                               const ClockOffsets& offsets);
-/// The same, null if there are none; those of the campaign itself where nothing of them is marked, however many there
-/// are.
-[[nodiscard]] std::shared_ptr<const ObservationSet> sharedObservationsToFit(
-    const std::shared_ptr<const Campaign>& campaign, const StoredEvaluation* evaluation, const ExcludedItems& excluded,
-    const ClockOffsets& offsets);
+
+/// observationsToFit of a campaign as it is at hand. To take and to copy them costs the same however many there are:
+/// what is marked is marked when they are first looked at, by the thread that does, and once for all copies; those of
+/// the campaign itself are shared where nothing of them is marked. Any thread.
+class ObservationsToFit {
+ public:
+  /// None.
+  ObservationsToFit() = default;
+  ObservationsToFit(std::shared_ptr<const Campaign> campaign, std::shared_ptr<const StoredEvaluation> evaluation,
+                    ExcludedItems excluded, ClockOffsets offsets);
+
+  [[nodiscard]] bool has_value() const noexcept { return made_ != nullptr; }
+  explicit operator bool() const noexcept { return has_value(); }
+  [[nodiscard]] const ObservationSet& operator*() const { return *shared(); }
+  [[nodiscard]] const ObservationSet* operator->() const { return shared().get(); }
+  /// Null if there are none.
+  [[nodiscard]] const ObservationSet* get() const { return has_value() ? shared().get() : nullptr; }
+  /// There must be some.
+  [[nodiscard]] const std::shared_ptr<const ObservationSet>& shared() const;
+  /// Made of the same, at once.
+  [[nodiscard]] bool operator==(const ObservationsToFit& other) const noexcept { return made_ == other.made_; }
+  [[nodiscard]] bool operator==(std::nullptr_t) const noexcept { return !has_value(); }
+
+ private:
+  struct Made;
+  std::shared_ptr<const Made> made_;
+};
 
 }  // namespace spindrift

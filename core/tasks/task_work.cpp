@@ -14,9 +14,8 @@ TaskInputs TaskInputs::of(const TaskGraph& graph, const CampaignState& state) {
   TaskInputs inputs;
   inputs.campaign = state.campaign;
   inputs.excluded = state.excluded;
-  const auto evaluation = state.campaign->observations ? nullptr : state.evaluation(graph);
-  inputs.observations = sharedObservationsToFit(state.campaign, evaluation.get(), state.excluded,
-                                                clockOffsetsOf(graph.session(), state.id));
+  inputs.observations = {state.campaign, state.campaign->observations ? nullptr : state.evaluation(graph),
+                         state.excluded, clockOffsetsOf(graph.session(), state.id)};
   return inputs;
 }
 

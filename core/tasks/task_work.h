@@ -38,7 +38,7 @@ namespace spindrift {
 struct TaskInputs {
   std::shared_ptr<const Campaign> campaign;  ///< as at hand, nothing taken out
   ExcludedItems excluded;
-  std::shared_ptr<const ObservationSet> observations;  ///< to fit (observationsToFit); null: there are none
+  ObservationsToFit observations;
   // Read anew where they are null.
   std::shared_ptr<const TouchList> touches;
   std::shared_ptr<const TimeSeries> series;  ///< campaignSeries of these observations
@@ -107,7 +107,7 @@ struct SimulationTask {
   EffectOptions effects;
   std::filesystem::path effects_file;
   std::shared_ptr<const Campaign> campaign;
-  std::shared_ptr<const ObservationSet> observations;
+  ObservationsToFit observations;
 
   /// Throws InputError: there is no simulator.
   [[nodiscard]] static SimulationTask of(const TaskGraph& graph, const TaskInputs& inputs);

@@ -195,8 +195,12 @@ void applyClockOffsets(ObservationSet& observations, const ClockOffsets& offsets
 
 void applyClockOffsets(Campaign& campaign, const ClockOffsets& offsets) {
   const auto log = offsets.find("log");
-  if (log != offsets.end() && campaign.log) campaign.log->moveClock(log->second.offset_s);
-  if (campaign.observations) applyClockOffsets(*campaign.observations, offsets);
+  if (log != offsets.end() && campaign.log) campaign.log.edit().moveClock(log->second.offset_s);
+  if (!campaign.observations) return;
+  const auto& rows = campaign.observations->rows;
+  // Where nothing is moved, nothing is copied.
+  if (std::any_of(rows.begin(), rows.end(), [&](const Observation& o) { return offsets.contains(o.instrument); }))
+    applyClockOffsets(campaign.observations.edit(), offsets);
 }
 
 }  // namespace spindrift

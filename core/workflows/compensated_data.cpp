@@ -22,8 +22,8 @@ bool wasCompensating(const OperatingLog& log, double time_s) {
   return log.has(compensation_signal) && log.at(compensation_signal, time_s) > 0.5;
 }
 
-std::string leaveOutCompensated(ObservationSet& observations, const std::optional<OperatingLog>& log) {
-  if (!log || !log->has(compensation_signal)) return {};
+std::string leaveOutCompensated(ObservationSet& observations, const OperatingLog* log) {
+  if (log == nullptr || !log->has(compensation_signal)) return {};
   std::size_t out = 0;
   for (Observation& o : observations.rows) {
     if (!wasCompensating(*log, o.time_s)) continue;

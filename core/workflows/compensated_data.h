@@ -15,9 +15,9 @@ inline constexpr const char* compensation_signal = "compensation_on";
 /// True if the log says that the control was compensating at that time; false without such a column.
 [[nodiscard]] bool wasCompensating(const OperatingLog& log, double time_s);
 
-/// Marks observations taken while compensating `exclude`, those too that are excluded already. One sentence for
-/// people, empty if there are none.
-std::string leaveOutCompensated(ObservationSet& observations, const std::optional<OperatingLog>& log);
+/// Marks observations taken while compensating `exclude`, those too that are excluded already; `log` null: none are.
+/// One sentence for people, empty if there are none.
+std::string leaveOutCompensated(ObservationSet& observations, const OperatingLog* log);
 
 /// Measured outputs (displacements) become missing while compensating; a note of the series says how many values.
 void leaveOutCompensated(TimeSeries& series);

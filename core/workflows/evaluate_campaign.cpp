@@ -113,7 +113,7 @@ ObservationSet observationsOf(const Campaign& campaign, const std::filesystem::p
                               const EvaluateOptions& options, JobContext& job, std::vector<std::string>* notes) {
   ObservationSet set = allObservationsOf(campaign, file, options, job);
   set.absolute = campaign.absolute;
-  const std::string left_out = leaveOutCompensated(set, campaign.log);
+  const std::string left_out = leaveOutCompensated(set, campaign.log.get());
   if (const std::string outside = outsideTravel(set, campaign.machine); notes != nullptr && !outside.empty())
     notes->push_back(outside);
   if (notes != nullptr && !left_out.empty()) notes->push_back(left_out);

@@ -267,7 +267,7 @@ ExerciseKey exerciseKey(const Exercise& exercise, JobContext& job) {
   const StudyCase made = exerciseCase(exercise);
   const StudyCampaign study = simulateStudy(made, job);
   const Campaign& campaign = study.campaign.campaign;
-  const std::vector<Observation>& rows = campaign.observations.value().rows;
+  const std::vector<Observation>& rows = campaign.observations->rows;
   const DriverTable drivers(campaign.machine, campaign.log ? &*campaign.log : nullptr);
   const EffectsAnswer known = listEffects(campaign, nullptr, nullptr);
   ExerciseKey key;

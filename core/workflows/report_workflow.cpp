@@ -144,7 +144,7 @@ Report reportOfCampaign(const Campaign& campaign, const ReportOptions& options, 
   }
   if (!options.observations_file.empty() || campaign.observations)
     input.observations = allObservationsOf(campaign, options.observations_file, options.evaluate, evaluating);
-  const std::string left_out = leaveOutCompensated(input.observations, campaign.log);
+  const std::string left_out = leaveOutCompensated(input.observations, campaign.log.get());
   if (!left_out.empty()) input.notes.push_back(left_out);
   if (campaign.log && !campaign.log->file().empty()) {
     for (std::string& note : OperatingLog::columnsLeftOut(campaign.log->file())) input.notes.push_back(std::move(note));

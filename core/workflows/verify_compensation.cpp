@@ -317,7 +317,7 @@ VerifyResult verifyCompensation(const ObservationSet& before, const ObservationS
 VerifyResult verifyCampaigns(const Campaign& before, const ObservationSet& before_observations, const Campaign& after,
                              const ObservationSet& after_observations, const VerifyRequest& request) {
   ObservationSet first = before_observations;
-  const std::string left_out = leaveOutCompensated(first, before.log);
+  const std::string left_out = leaveOutCompensated(first, before.log.get());
   ObservationSet second = after_observations;
   std::vector<std::string> notes;
   if (before.machine.name != after.machine.name) {

@@ -21,10 +21,8 @@ constexpr qint64 least_to_wait_for_ms = 100;
 ObservedCampaign observedFrom(std::shared_ptr<const Campaign> campaign,
                               std::shared_ptr<const StoredEvaluation> evaluation, const ExcludedItems& excluded,
                               const ClockOffsets& clocks) {
-  ObservedCampaign observed{std::move(campaign), std::move(evaluation), excluded, clocks, nullptr};
-  observed.set =
-      sharedObservationsToFit(observed.campaign, observed.evaluation.get(), observed.excluded, observed.clocks);
-  return observed;
+  ObservationsToFit set(campaign, evaluation, excluded, clocks);
+  return {std::move(campaign), std::move(evaluation), excluded, clocks, std::move(set)};
 }
 
 }  // namespace
@@ -34,6 +32,7 @@ ReadCampaign CampaignReading::read(JobContext& job) const {
   if (read.state.campaign == nullptr) return read;
   const auto evaluation = read.state.campaign->observations ? nullptr : read.state.readEvaluation();
   read.observed = observedFrom(read.state.campaign, evaluation, read.state.excluded, source.edits.clocks);
+  (void)read.observed.set.get();  // so that nobody waits for it on the GUI thread
   return read;
 }
 
@@ -187,8 +186,8 @@ std::shared_ptr<const StoredEvaluation> SessionModel::evaluation() const {
   return session_ == nullptr || state_.campaign == nullptr ? nullptr : state_.evaluation(tasks());
 }
 
-std::shared_ptr<const ObservationSet> SessionModel::observations() const {
-  if (campaign() == nullptr) return nullptr;
+ObservationsToFit SessionModel::observations() const {
+  if (campaign() == nullptr) return {};
   const auto stored = campaign()->observations ? nullptr : evaluation();
   const ClockOffsets clocks = clockOffsets();
   const ObservedCampaign& o = observed_;

@@ -56,13 +56,13 @@ struct ResultState {
   std::string program_version;
 };
 
-/// The observations to fit, and what they were made of.
+/// The observations to fit, and what they are made of.
 struct ObservedCampaign {
   std::shared_ptr<const Campaign> campaign;
   std::shared_ptr<const StoredEvaluation> evaluation;
   ExcludedItems excluded;
   ClockOffsets clocks;
-  std::shared_ptr<const ObservationSet> set;
+  ObservationsToFit set;
 };
 
 /// A campaign with everything its pages ask for at once, read from the disk: large ones take a while, so that a job
@@ -175,8 +175,9 @@ class SessionModel : public QObject {
   /// The last evaluation, whether it is current or not; null if there is none.
   [[nodiscard]] std::shared_ptr<const StoredEvaluation> evaluation() const;
   /// Observations to fit: the campaign's own, else those of the last evaluation; what the user excluded is marked so.
-  /// Null if there are none. Made once for as long as none of that changes.
-  [[nodiscard]] std::shared_ptr<const ObservationSet> observations() const;
+  /// Null if there are none. The same for as long as none of that changes; they are marked when they are looked at,
+  /// which takes the longer the more there are, so that jobs should.
+  [[nodiscard]] ObservationsToFit observations() const;
   /// What every result of the campaign at hand is made from now, as one text to recognise it by.
   [[nodiscard]] std::string inputsKey() const;
 

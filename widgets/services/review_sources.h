@@ -24,10 +24,10 @@ struct ReviewSource {
   std::int64_t id = 0;
   QString name;
   std::shared_ptr<const Campaign> campaign;
-  std::shared_ptr<const ObservationSet> observations;  ///< null without any
-  std::vector<std::string> states;                     ///< in order; the first is the reference
-  std::vector<double> angles_deg;                      ///< of the table, ascending
-  std::vector<ScanCapture> scans;                      ///< empty without a profiler
+  ObservationsToFit observations;   ///< null without any
+  std::vector<std::string> states;  ///< in order; the first is the reference
+  std::vector<double> angles_deg;   ///< of the table, ascending
+  std::vector<ScanCapture> scans;   ///< empty without a profiler
   /// The stored search for what the simulation lacks; null if there was none.
   std::shared_ptr<const nlohmann::json> discrepancy;
   NineParameterOptions fit;  ///< as chosen on the page Model of that campaign

@@ -52,7 +52,7 @@ void writeWarmUp(Scenario scenario, const std::filesystem::path& file, JobContex
   measurement.points = {scenario.machine.points.front().id};
   scenario.measurement = measurement;
   const VirtualCampaign warm_up = simulateCampaign(scenario, std::nullopt, job);
-  writeFileAtomically(file, warm_up.campaign.observations.value().csv());
+  writeFileAtomically(file, warm_up.campaign.observations->csv());
 }
 
 std::string resourceOf(const std::string& name) {

@@ -39,13 +39,13 @@ struct Term {
 class Device {
  public:
   Device(const std::filesystem::path& folder, double part, std::uint64_t seed) : campaign_(Campaign::read(folder)) {
-    campaign_.observations->absolute = true;
+    campaign_.observations.edit().absolute = true;
     Random random(seed);
     std::set<std::string> left_out;
     for (const std::string& point : campaign_.observations->points()) {
       if (random.uniform() >= part) left_out.insert(point);
     }
-    std::erase_if(campaign_.observations->rows, [&](const Observation& o) { return left_out.contains(o.point); });
+    std::erase_if(campaign_.observations.edit().rows, [&](const Observation& o) { return left_out.contains(o.point); });
     own_ = OwnEffects::read(campaign_.path(campaign_.effects.empty() ? "effects.json" : campaign_.effects.string()));
     const OperatingLog* log = campaign_.log ? &*campaign_.log : nullptr;
     drivers_ = DriverTable(campaign_.machine, log);

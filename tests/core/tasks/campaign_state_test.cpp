@@ -94,6 +94,38 @@ TEST(CampaignState, EvaluationsOfEarlierVersionsHoldCovariancesOfPairs) {
   StoredResult stored;
   stored.payload = payloadOf(evaluation());
   stored.payload.erase("shared_noise");
+TEST(CampaignState, CopiesOfACampaignShareItsReadingsUntilOneIsEdited) {
+  Campaign campaign;
+  campaign.observations = evaluation().observations;
+  Campaign copy = campaign;
+  EXPECT_EQ(copy.observations.get(), campaign.observations.get());
+  const double before_s = campaign.observations->rows[0].time_s;
+  copy.observations.edit().rows[0].time_s += 1.0;
+  EXPECT_EQ(campaign.observations->rows[0].time_s, before_s);
+  EXPECT_EQ(copy.observations->rows[0].time_s, before_s + 1.0);
+  const ObservationSet* own = copy.observations.get();
+  copy.observations.edit().rows[0].time_s += 1.0;
+  EXPECT_EQ(copy.observations.get(), own) << "nobody shares it any more";
+}
+
+TEST(CampaignState, ObservationsToFitAreMarkedOnceForAllAndNothingIsCopiedWhereNothingIsMarked) {
+  Campaign campaign;
+  campaign.observations = evaluation().observations;
+  const auto shared = std::make_shared<const Campaign>(campaign);
+  EXPECT_EQ(ObservationsToFit(std::make_shared<const Campaign>(), nullptr, {}, {}), nullptr);
+  const ObservationsToFit all(shared, nullptr, {}, {});
+  EXPECT_EQ(all.get(), shared->observations.get());
+  const Observation& o = campaign.observations->rows[1];
+  const std::string item = o.state + "/" + o.point + "/" + std::string(toString(o.component));
+  const ObservationsToFit marked(shared, nullptr, {{item, "disturbed"}}, {});
+  const ObservationsToFit given_on = marked;
+  EXPECT_EQ(given_on, marked);
+  EXPECT_FALSE(marked == all);
+  EXPECT_EQ(given_on->rows[1].use, ObservationUse::Exclude);
+  EXPECT_EQ(given_on.get(), marked.get());
+  EXPECT_EQ(campaign.observations->rows[1].use, ObservationUse::Fit);
+}
+
   stored.payload["covariance"] = {{0, 2, 0.1}, {1, 3, -0.05}};
   const ObservationSet set = evaluationFrom(stored).observations;
   EXPECT_NEAR(set.shared.covariance(0, 2), 0.1, 1e-15);

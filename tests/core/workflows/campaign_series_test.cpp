@@ -43,13 +43,13 @@ Campaign sparse() {
       o.component = Component::EZ;
       o.value = (on.back() > 0.5 ? 0.0 : series_gain * state) + random.normal(0.0, 0.2);
       o.sigma = 0.2;
-      c.observations->rows.push_back(o);
+      c.observations.edit().rows.push_back(o);
     }
     state += (1.0 - std::exp(-30.0 / series_tau_s)) * (rpm / 3000.0 - state);
   }
   c.log = OperatingLog(time);
-  c.log->setSignal("spindle_rpm", speed);
-  c.log->setSignal("compensation_on", on);
+  c.log.edit().setSignal("spindle_rpm", speed);
+  c.log.edit().setSignal("compensation_on", on);
   return c;
 }
 
@@ -164,7 +164,7 @@ TEST(CampaignSeries, SaysWhatIsMissing) {
   testing::TempFolder folder;
   Campaign c = written(folder);
   JobContext job;
-  c.observations->rows.resize(5);
+  c.observations.edit().rows.resize(5);
   EXPECT_THROW(static_cast<void>(campaignSeries(c, nullptr, job)), InputError);
   c.log.reset();
   EXPECT_THROW(static_cast<void>(campaignSeries(c, nullptr, job)), InputError);

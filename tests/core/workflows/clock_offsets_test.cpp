@@ -60,12 +60,12 @@ TEST(CampaignClockOffset, RefusesWhatShowsNoEvent) {
 TEST(CampaignClockOffset, MovesLogAndObservationsAndSurvivesTheSession) {
   Campaign c;
   c.log = OperatingLog({0.0, 100.0});
-  c.log->setSignal("spindle_rpm", {0.0, 3000.0});
+  c.log.edit().setSignal("spindle_rpm", {0.0, 3000.0});
   c.observations.emplace();
   Observation o;
   o.time_s = 50.0;
   o.instrument = "probe";
-  c.observations->rows = {o};
+  c.observations.edit().rows = {o};
   const ClockOffsets offsets = clockOffsetsFrom(toJson(
       {{"log", {7.5, 0.2, "entered"}}, {"probe", {-3.0, 0.1, "motion of X"}}, {"camera", {1.0, 0.0, "entered"}}}));
   EXPECT_EQ(offsets.at("probe").how, "motion of X");

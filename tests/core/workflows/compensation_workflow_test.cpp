@@ -115,7 +115,7 @@ TEST(CompensationPlan, SaysWhenItDoesMoreHarmThanGood) {
   // Nothing but noise: what is fitted to it makes every point that was left out worse.
   Campaign cold = campaignOf(0.0, false, 4);
   Random random(5);
-  for (Observation& o : cold.observations->rows) o.value = random.normal(0, 0.3);
+  for (Observation& o : cold.observations.edit().rows) o.value = random.normal(0, 0.3);
   const CompensationPlan plan = planOf(cold, CompensationSource::NineParameters);
   ASSERT_GT(*plan.rms_after_unseen_um, *plan.rms_before_unseen_um);
   EXPECT_THAT(plan.harm(), HasSubstr("must not be used"));
@@ -205,7 +205,7 @@ TEST(CompensationPlan, WritesNoFanucDataBeforeTheirDirectionIsStated) {
 
 TEST(CompensationPlan, SaysWhatAControlCannotTake) {
   Campaign campaign = campaignOf(0.0, false, 4);
-  for (Observation& o : campaign.observations->rows)
+  for (Observation& o : campaign.observations.edit().rows)
     if (o.state == "M1" && o.component == Component::EX) o.value += 4.0 * o.position_mm.x();  // 1.2 mm over X
   CompensationRequest request;
   request.positions = 3;
@@ -251,7 +251,7 @@ TEST(Heatmap, OfARejectedModelCarriesTheLackOfFit) {
 TEST(CompensationPlan, WhatScattersAboutOneHeightIsNoExtentAlongZ) {
   Campaign campaign = campaignOf(0.0, false, 5);
   Random random(5);
-  for (Observation& o : campaign.observations->rows) o.position_mm.z() = -3.0 + 0.005 * random.uniform(-1.0, 1.0);
+  for (Observation& o : campaign.observations.edit().rows) o.position_mm.z() = -3.0 + 0.005 * random.uniform(-1.0, 1.0);
   const CompensationPlan plan = planOf(campaign, CompensationSource::NineParameters);
   EXPECT_THAT(plan.warnings, Contains(HasSubstr("Nothing was measured along Z")));
   for (const CompensationFile& f : plan.files) {
@@ -270,7 +270,7 @@ Campaign heightsOnly(const testing::TempFolder& folder, double jump_um = 0.0) {
     rpm.push_back(k >= 60 && k < 400 ? 4000.0 : 0.0);
   }
   campaign.log = OperatingLog(time_s);
-  campaign.log->setSignal("spindle_rpm", rpm);
+  campaign.log.edit().setSignal("spindle_rpm", rpm);
   Random random(7);
   ObservationSet set;
   std::string simulated = "time_s,point,component,predicted\n";

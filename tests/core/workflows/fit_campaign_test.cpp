@@ -51,7 +51,7 @@ const std::vector<Eigen::Vector3d> five{{20, 15, 0}, {280, 15, 0}, {280, 115, 0}
 /// Two readings that share more than they have: the covariance is none.
 TEST(FitWorkflow, ARejectedFitStatesNothing) {
   Campaign campaign = someCampaign(five);
-  ObservationSet& set = *campaign.observations;
+  ObservationSet& set = campaign.observations.edit();
   const std::size_t half = set.rows.size() / 2;
   const std::vector<CovarianceEntry> too_large{{half, half + 3, 1.0}};
   set.setCovariances(too_large);

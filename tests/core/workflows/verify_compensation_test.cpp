@@ -36,7 +36,7 @@ ObservationSet measured(double growth, double sigma, std::uint64_t seed, double 
 Campaign campaignWith(std::vector<double> on) {
   Campaign c;
   c.log = OperatingLog({0.0, 1500.0, 10000.0});
-  c.log->setSignal("compensation_on", std::move(on));
+  c.log.edit().setSignal("compensation_on", std::move(on));
   return c;
 }
 
@@ -184,11 +184,12 @@ TEST(Verify, TheLogDecidesWhatBelongsToBeforeAndAfter) {
 TEST(CompensatedData, NeverEntersAFitUnnoticed) {
   ObservationSet set = measured(10.0, 0.2, 6);
   const Campaign half = campaignWith({0.0, 1.0, 1.0});
-  const std::string sentence = leaveOutCompensated(set, half.log);
+  const std::string sentence = leaveOutCompensated(set, half.log.get());
   EXPECT_NE(sentence.find("16 of 32 observations"), std::string::npos) << sentence;
   for (const Observation& o : set.rows)
     EXPECT_EQ(o.use, o.time_s < 1500.0 ? ObservationUse::Fit : ObservationUse::Exclude);
-  EXPECT_EQ(leaveOutCompensated(set, half.log), sentence);  // a stored evaluation has left them out already: told again
+  EXPECT_EQ(leaveOutCompensated(set, half.log.get()),
+            sentence);  // a stored evaluation has left them out already: told again
   TimeSeries series = parseTimeSeries("time_s,ez_um,compensation_on\n0,1,0\n10,2,1\n20,3,1\n30,4,0\n", "log.csv");
   leaveOutCompensated(series);
   EXPECT_TRUE(std::isnan(series.at("ez_um").values[1]) && std::isnan(series.at("ez_um").values[2]));

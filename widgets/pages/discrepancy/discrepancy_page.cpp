@@ -540,7 +540,7 @@ void DiscrepancyPage::showExcluded() {
   if (noise_ == nullptr) return;  // show() fills it
   std::vector<ExcludedReading> excluded;
   const std::map<QString, QString>& items = session().excluded();
-  if (const auto observations = items.empty() ? nullptr : session().observations()) {
+  if (const auto observations = items.empty() ? ObservationsToFit() : session().observations()) {
     for (std::size_t i = 0; i < observations->rows.size(); ++i) {
       const Observation& o = observations->rows[i];
       const auto found = items.find(itemOf(o.state, o.point, o.component));

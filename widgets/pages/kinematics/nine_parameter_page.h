@@ -61,7 +61,7 @@ class NineParameterPage : public Page {
   RowsModel* points_;
   /// What stands in the table of points.
   struct Changes {
-    std::shared_ptr<const ObservationSet> of;
+    ObservationsToFit of;
     std::string state;
     std::vector<PointChange> points;
   };

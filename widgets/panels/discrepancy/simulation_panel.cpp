@@ -213,8 +213,8 @@ void SimulationPanel::openSoon() {
     return;
   }
   // A snapshot: the page may show another campaign by then.
-  opening_.ask([this, file = simulatorFile(session, simulator_), campaign, at = *observations] {
-    OpenedSimulator read = OpenedSimulator::read(file, *campaign, at);
+  opening_.ask([this, file = simulatorFile(session, simulator_), campaign, observations] {
+    OpenedSimulator read = OpenedSimulator::read(file, *campaign, *observations);
     return [this, read = std::move(read)] {
       opened_ = read;
       showParameters();
