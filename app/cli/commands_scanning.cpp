@@ -274,7 +274,7 @@ CommandResult studyCommand(const CalibrationStudyArguments& a, JobContext& job) 
   row("", "largest", largest);
   out.json["rms"] = named(squares);
   out.json["largest"] = named(largest);
-  for (const std::string& w : scans.warnings) out.summary += "warning: " + w + "\n";
+  for (const EvaluationWarning& w : scans.warnings) out.summary += "warning: " + w.sentence + "\n";
   return out;
 }
 

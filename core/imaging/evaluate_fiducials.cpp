@@ -214,7 +214,7 @@ InstrumentEvaluation evaluateFiducials(const Campaign& campaign, JobContext& job
   evaluation.observations = displacement.observations;
   evaluation.rejected = images.rejected;
   evaluation.rejected.insert(evaluation.rejected.end(), displacement.rejected.begin(), displacement.rejected.end());
-  evaluation.warnings = displacement.warnings;
+  evaluation.warnings.assign(displacement.warnings.begin(), displacement.warnings.end());
   for (const ImplausibleReading& reading : displacement.implausible) rejectReading(reading, evaluation);
   evaluation.details = detailsOf(list, images, displacement);
   evaluation.summary = summaryOf(displacement);

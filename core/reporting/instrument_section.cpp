@@ -350,7 +350,8 @@ void addChangesOfShape(Report& document, const nlohmann::json& cycles) {
 
 void addInstrument(Report& document, const InstrumentEvaluation& instrument) {
   document.section(fmt::format("Measured with: {}", instrumentTitle(instrument.instrument)));
-  for (const std::string& warning : instrument.warnings) document.callout(CalloutKind::Attention, warning);
+  for (const EvaluationWarning& warning : instrument.warnings)
+    document.callout(CalloutKind::Attention, warning.sentence);
   if (instrument.details.contains("cycles")) {
     const Cycles cycles = cyclesOf(instrument.details["cycles"]);
     if (!cycles.rows.empty()) {

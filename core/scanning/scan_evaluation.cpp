@@ -455,7 +455,7 @@ std::array<std::optional<std::array<double, 2>>, 3> knownAngles(const MachineDes
 }
 
 ProfilerCalibration calibrationOf(const Campaign& campaign, const ProfilerDescription& profiler, ScanModel model,
-                                  const ScanFrame& frame, std::vector<std::string>& warnings) {
+                                  const ScanFrame& frame, std::vector<EvaluationWarning>& warnings) {
   CalibrationOptions options;
   options.scan_model = model;
   options.known_angles_rad = knownAngles(campaign.machine);
@@ -474,7 +474,8 @@ ProfilerCalibration calibrationOf(const Campaign& campaign, const ProfilerDescri
       for (std::size_t i = 0; i < 3; ++i) circle[i] = centre[static_cast<Eigen::Index>(i)];
       const ProfilerCalibration c = calibrateProfiler(readCloud(cloud), circle, options);
       if (c.usable()) {
-        if (!c.message.empty()) warnings.push_back("Calibration of the profiler: " + c.message);
+        if (!c.message.empty())
+          warnings.emplace_back("Calibration of the profiler: " + c.message, WarningKind::CalibrationLimit);
         return c;
       }
       reason = c.message;
@@ -603,10 +604,6 @@ ScanEvaluation evaluateScanCampaign(const Campaign& campaign, const std::string&
   for (const ScanResult& s : evaluation.scans)
     for (const std::string& w : s.warnings) evaluation.warnings.push_back(w);
   return evaluation;
-}
-
-bool isCalibrationWarning(std::string_view warning) {
-  return warning.starts_with("Calibration of the profiler: ");
 }
 
 }  // namespace spindrift

@@ -55,7 +55,7 @@ struct ScanEvaluation {
   ProfilerMounting mounting;                                        ///< in the scan frame
   std::vector<ScanResult> scans;                                    ///< in order of time
   std::vector<RejectedCapture> rejected;
-  std::vector<std::string> warnings;
+  std::vector<EvaluationWarning> warnings;
 };
 
 /// Reads captures/scans.csv. Throws InputError: missing column, time that runs backwards for an artefact, a cycle
@@ -66,9 +66,5 @@ struct ScanEvaluation {
 /// machine.json. Throws InputError if the list or the machine's profiler cannot be used.
 [[nodiscard]] ScanEvaluation evaluateScanCampaign(const Campaign& campaign, const std::string& scan_model,
                                                   JobContext& job);
-
-/// Whether a warning of an evaluation says what its calibration could not determine: no fault by itself, another one
-/// says where it matters.
-[[nodiscard]] bool isCalibrationWarning(std::string_view warning);
 
 }  // namespace spindrift

@@ -85,6 +85,32 @@ void readShared(const nlohmann::json& payload, ObservationSet& set) {
   set.setCovariances(covariances);
 }
 
+constexpr std::string_view calibration_limit = "calibration_limit";
+
+/// Beside the sentences, which stand in a list of their own.
+nlohmann::json kindsJson(const std::vector<EvaluationWarning>& warnings) {
+  nlohmann::json kinds = nlohmann::json::array();
+  for (const EvaluationWarning& w : warnings)
+    kinds.push_back(w.kind == WarningKind::CalibrationLimit ? calibration_limit : "finding");
+  return kinds;
+}
+
+std::vector<EvaluationWarning> warningsFrom(const nlohmann::json& sentences, const nlohmann::json& kinds) {
+  std::vector<EvaluationWarning> warnings;
+  for (const auto& sentence : sentences) {
+    const bool limit =
+        kinds.is_array() && warnings.size() < kinds.size() && kinds[warnings.size()] == calibration_limit;
+    warnings.emplace_back(sentence.get<std::string>(), limit ? WarningKind::CalibrationLimit : WarningKind::Finding);
+  }
+  return warnings;
+}
+
+nlohmann::json sentencesJson(const std::vector<EvaluationWarning>& warnings) {
+  nlohmann::json sentences = nlohmann::json::array();
+  for (const EvaluationWarning& w : warnings) sentences.push_back(w.sentence);
+  return sentences;
+}
+
 nlohmann::json instrumentsJson(const std::vector<InstrumentEvaluation>& instruments) {
   nlohmann::json out = nlohmann::json::array();
   for (const InstrumentEvaluation& one : instruments) {
@@ -92,7 +118,8 @@ nlohmann::json instrumentsJson(const std::vector<InstrumentEvaluation>& instrume
     for (const RejectedCapture& r : one.rejected) rejected.push_back({r.capture, r.reason});
     out.push_back({{"instrument", one.instrument},
                    {"rejected", std::move(rejected)},
-                   {"warnings", one.warnings},
+                   {"warnings", sentencesJson(one.warnings)},
+                   {"warning_kinds", kindsJson(one.warnings)},
                    {"details", one.details},
                    {"summary", one.summary},
                    {"good_enough", one.good_enough}});
@@ -105,7 +132,7 @@ InstrumentEvaluation instrumentFrom(const nlohmann::json& stored) {
   one.instrument = stored.at("instrument").get<std::string>();
   for (const auto& r : stored.at("rejected"))
     one.rejected.push_back({r.at(0).get<std::string>(), r.at(1).get<std::string>()});
-  one.warnings = stored.at("warnings").get<std::vector<std::string>>();
+  one.warnings = warningsFrom(stored.at("warnings"), stored.value("warning_kinds", nlohmann::json()));
   one.details = stored.at("details");
   one.summary = stored.at("summary").get<std::string>();
   one.good_enough = stored.at("good_enough").get<bool>();
@@ -114,8 +141,17 @@ InstrumentEvaluation instrumentFrom(const nlohmann::json& stored) {
 
 }  // namespace
 
+std::vector<EvaluationWarning> warningsOfEvaluation(const nlohmann::json& payload) {
+  return warningsFrom(payload.value("json", nlohmann::json::object()).value("warnings", nlohmann::json::array()),
+                      payload.value("warning_kinds", nlohmann::json()));
+}
+
 nlohmann::json payloadOf(const CampaignEvaluation& evaluation) {
+  std::vector<EvaluationWarning> warnings;
+  for (const InstrumentEvaluation& one : evaluation.instruments)
+    warnings.insert(warnings.end(), one.warnings.begin(), one.warnings.end());
   nlohmann::json payload = {{"json", evaluation.json()},
+                            {"warning_kinds", kindsJson(warnings)},
                             {"summary", evaluation.summary()},
                             {"good_enough", evaluation.good_enough},
                             {"observations", evaluation.observations.csv()},
@@ -137,9 +173,7 @@ StoredEvaluation evaluationFrom(const StoredResult& result) try {
   for (const auto& r : evaluation.details.value("rejected", nlohmann::json::array())) {
     evaluation.rejected.push_back({r.at("capture").get<std::string>(), r.at("reason").get<std::string>()});
   }
-  for (const auto& w : evaluation.details.value("warnings", nlohmann::json::array())) {
-    evaluation.warnings.push_back(w.get<std::string>());
-  }
+  evaluation.warnings = warningsOfEvaluation(p);
   for (const auto& one : p.value("instruments", nlohmann::json::array()))
     evaluation.instruments.push_back(instrumentFrom(one));
   return evaluation;

@@ -29,7 +29,7 @@ struct StoredEvaluation {
   ObservationSet observations;
   nlohmann::json details = nlohmann::json::object();  ///< JSON of `evaluate` (FORMATS.md)
   std::vector<RejectedCapture> rejected;
-  std::vector<std::string> warnings;
+  std::vector<EvaluationWarning> warnings;
   std::string summary;
   bool good_enough = true;
   /// Each by itself, without its observations, where there are several; empty: one, or of an earlier version.
@@ -39,6 +39,8 @@ struct StoredEvaluation {
 /// Payload of a result of kind "evaluate" and back. Throws InputError: the session is damaged or another's.
 [[nodiscard]] nlohmann::json payloadOf(const CampaignEvaluation& evaluation);
 [[nodiscard]] StoredEvaluation evaluationFrom(const StoredResult& result);
+/// Its warnings. Earlier versions did not store of what kind they are: they are findings then.
+[[nodiscard]] std::vector<EvaluationWarning> warningsOfEvaluation(const nlohmann::json& payload);
 /// As it was worked out, the observations of all instruments together; nothing where an earlier version stored several
 /// instruments, without saying which of them a detail, a warning or a rejected capture belongs to.
 [[nodiscard]] std::optional<CampaignEvaluation> asWorkedOut(const StoredEvaluation& stored);

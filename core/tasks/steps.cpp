@@ -16,7 +16,7 @@
 #include "core/machine/observation_plausibility.h"
 #include "core/scanning/painted_mask.h"
 #include "core/scanning/registration.h"
-#include "core/scanning/scan_evaluation.h"
+#include "core/tasks/campaign_state.h"
 #include "core/tasks/task_options.h"
 #include "core/workflows/instrument_checks.h"
 #include "core/workflows/measurement_plan.h"
@@ -170,13 +170,16 @@ StepReport calibrate(const TaskGraph& graph, const CaptureCounts& counts) {
                         std::max(counts.listed, rejected)),
             rejected, std::max(counts.listed, rejected)};
   }
-  std::vector<std::string> warnings = warningsOf(details);
-  if (!payload.value("good_enough", true))
+  if (!payload.value("good_enough", true)) {
+    const std::vector<std::string> warnings = warningsOf(details);
     return warnings.empty() ? report(StepState::Attention, "The result is not good enough.") : done("", warnings);
+  }
   // What the calibration of a profiler cannot determine stands beside its numbers; where it matters, another warning
   // says so.
-  std::erase_if(warnings, isCalibrationWarning);
-  return done("Captures are evaluated.", warnings);
+  std::vector<std::string> findings;
+  for (EvaluationWarning& w : warningsOfEvaluation(payload))
+    if (w.kind == WarningKind::Finding) findings.push_back(std::move(w.sentence));
+  return done("Captures are evaluated.", findings);
 }
 
 StepReport model(const TaskGraph& graph) {

@@ -253,7 +253,7 @@ struct FitAxisErrors {
       auto scans = std::make_shared<const ScanEvaluation>(evaluateScanCampaign(*campaign, model, job));
       InstrumentEvaluation found = observationsOfScans(*campaign, *scans);
       AxisErrorResult result{scans, std::move(found.details), found.good_enough, {}};
-      if (!found.good_enough) result.why_not = found.warnings.back();
+      if (!found.good_enough) result.why_not = found.warnings.back().sentence;
       return result;
     };
   }

@@ -32,7 +32,7 @@ nlohmann::json CampaignEvaluation::json() const {
     }
     for (const RejectedCapture& r : instrument.rejected)
       rejected.push_back({{"capture", r.capture}, {"reason", r.reason}});
-    for (const std::string& w : instrument.warnings) warnings.push_back(w);
+    for (const EvaluationWarning& w : instrument.warnings) warnings.push_back(w.sentence);
   }
   out["instruments"] = names;
   out["rejected"] = rejected;
@@ -67,7 +67,7 @@ std::string CampaignEvaluation::summary() const {
       text += fmt::format("rejected {}: {}\n", instrument.rejected[i].capture, instrument.rejected[i].reason);
     if (instrument.rejected.size() > most_rejected)
       text += fmt::format("and {} more rejected; --json lists all\n", instrument.rejected.size() - most_rejected);
-    for (const std::string& w : instrument.warnings) text += fmt::format("note: {}\n", w);
+    for (const EvaluationWarning& w : instrument.warnings) text += fmt::format("note: {}\n", w.sentence);
   }
   text += countOf(observations.rows.size(), "observation") + "\n";
   return text;

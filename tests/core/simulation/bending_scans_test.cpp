@@ -179,7 +179,8 @@ TEST_P(BendingScans, TheChangeIsFoundAndSaid) {
 
   const InstrumentEvaluation rows = evaluateScans(campaign, "", job);
   bool said = false;
-  for (const std::string& w : rows.warnings) said = said || w.find("free-form field") != std::string::npos;
+  for (const EvaluationWarning& w : rows.warnings)
+    said = said || w.sentence.find("free-form field") != std::string::npos;
   EXPECT_TRUE(said);
   const nlohmann::json& cycles = rows.details["cycles"];
   EXPECT_TRUE(cycles[0]["free_form"].is_null());

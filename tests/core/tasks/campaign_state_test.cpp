@@ -41,7 +41,7 @@ TEST(CampaignState, AnEvaluationOfOneInstrumentComesBackAsItWasWorkedOut) {
   InstrumentEvaluation instrument;
   instrument.instrument = "microscope";
   instrument.rejected = {{"captures/images/0.jpg", "blurred"}};
-  instrument.warnings = {"one image could not be used."};
+  instrument.warnings = {"one image could not be used.", {"beta is not known.", WarningKind::CalibrationLimit}};
   instrument.details = {{"pixel_um", 1.5}};
   instrument.good_enough = false;
   before.instruments = {instrument};
@@ -54,6 +54,7 @@ TEST(CampaignState, AnEvaluationOfOneInstrumentComesBackAsItWasWorkedOut) {
   EXPECT_EQ(after->json(), before.json());
   EXPECT_EQ(after->instruments[0].instrument, "microscope");
   EXPECT_EQ(after->instruments[0].rejected[0].reason, "blurred");
+  EXPECT_EQ(after->instruments[0].warnings, instrument.warnings);
   EXPECT_EQ(after->observations.rows.size(), 4U);
   EXPECT_FALSE(after->good_enough);
 }
@@ -66,7 +67,7 @@ TEST(CampaignState, EvaluationsOfSeveralInstrumentsComeBackEachByItself) {
   microscope.details = {{"pixel_um", 1.5}};
   InstrumentEvaluation probe;
   probe.instrument = "touch_probe";
-  probe.warnings = {"two touches of H1 are missing."};
+  probe.warnings = {{"beta is not known.", WarningKind::CalibrationLimit}, "two touches of H1 are missing."};
   probe.details = {{"cycles", {{{"cycle", "C1"}}}}};
   probe.summary = "six cycles\n";
   probe.good_enough = false;
@@ -86,14 +87,13 @@ TEST(CampaignState, EvaluationsOfSeveralInstrumentsComeBackEachByItself) {
   EXPECT_EQ(after->instruments[1].summary, probe.summary);
   EXPECT_FALSE(after->instruments[1].good_enough);
   EXPECT_EQ(after->observations.rows.size(), 4U);
+  EXPECT_EQ(evaluationFrom(stored).warnings, probe.warnings);
+  stored.payload.erase("warning_kinds");
+  EXPECT_EQ(evaluationFrom(stored).warnings[0].kind, WarningKind::Finding) << "earlier versions did not say what it is";
   stored.payload.erase("instruments");
   EXPECT_FALSE(asWorkedOut(evaluationFrom(stored)).has_value()) << "earlier versions did not say what is whose";
 }
 
-TEST(CampaignState, EvaluationsOfEarlierVersionsHoldCovariancesOfPairs) {
-  StoredResult stored;
-  stored.payload = payloadOf(evaluation());
-  stored.payload.erase("shared_noise");
 TEST(CampaignState, CopiesOfACampaignShareItsReadingsUntilOneIsEdited) {
   Campaign campaign;
   campaign.observations = evaluation().observations;
@@ -126,6 +126,10 @@ TEST(CampaignState, ObservationsToFitAreMarkedOnceForAllAndNothingIsCopiedWhereN
   EXPECT_EQ(campaign.observations->rows[1].use, ObservationUse::Fit);
 }
 
+TEST(CampaignState, EvaluationsOfEarlierVersionsHoldCovariancesOfPairs) {
+  StoredResult stored;
+  stored.payload = payloadOf(evaluation());
+  stored.payload.erase("shared_noise");
   stored.payload["covariance"] = {{0, 2, 0.1}, {1, 3, -0.05}};
   const ObservationSet set = evaluationFrom(stored).observations;
   EXPECT_NEAR(set.shared.covariance(0, 2), 0.1, 1e-15);

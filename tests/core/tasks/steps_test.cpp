@@ -133,7 +133,8 @@ TEST(Steps, WhatIsDoneWithAWarningAsksForAttention) {
   s.run("evaluate", {{"json", {{"warnings", {warning}}}}, {"good_enough", true}});
   EXPECT_EQ(s.step(StepId::Calibrate).state, StepState::Attention);
   EXPECT_EQ(s.step(StepId::Calibrate).sentence, warning);
-  s.run("evaluate", {{"json", {{"warnings", {"Calibration of the profiler: alpha cannot be determined."}}}}});
+  s.run("evaluate",
+        {{"json", {{"warnings", {"alpha cannot be determined."}}}}, {"warning_kinds", {"calibration_limit"}}});
   EXPECT_EQ(s.step(StepId::Calibrate).state, StepState::Current) << "stands beside its numbers";
   s.run("fit", {{"status", "converged"}, {"warnings", {"EX of P3 was not measured and is left out."}}});
   EXPECT_EQ(s.step(StepId::Model).state, StepState::Attention);

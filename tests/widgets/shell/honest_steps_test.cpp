@@ -10,7 +10,6 @@
 #include <optional>
 #include <set>
 
-#include "core/scanning/scan_evaluation.h"
 #include "core/tasks/campaign_state.h"
 #include "core/tasks/steps.h"
 #include "tests/widgets/support/story_support.h"
@@ -62,8 +61,8 @@ class HonestSteps : public StoryTest, public ::testing::WithParamInterface<const
     if (payload.contains("json") && !payload["json"].value("rejected", nlohmann::json::array()).empty())
       return "a rejected capture";
     if (payload.contains("json"))
-      for (const nlohmann::json& warning : payload["json"].value("warnings", nlohmann::json::array()))
-        if (!isCalibrationWarning(warning.get<std::string>())) return "a warning of the evaluation";
+      for (const EvaluationWarning& warning : warningsOfEvaluation(payload))
+        if (warning.kind == WarningKind::Finding) return "a warning of the evaluation";
     if (!payload.value("good_enough", true)) return "not good enough";
     if (payload.value("rejected", nlohmann::json(false)) == true) return "rejected";
     if (payload.contains("status") && payload["status"] != "converged") return "status";

@@ -146,7 +146,7 @@ void FiducialCalibratePage::refresh() {
   } else if (!evaluation->good_enough || !evaluation->warnings.empty() || !evaluation->rejected.empty()) {
     QStringList sentences;
     if (!evaluation->rejected.empty()) sentences << context().workflow.status(step()).sentence;  // how many of how many
-    for (const std::string& w : evaluation->warnings) sentences << coreSentence(w);
+    for (const EvaluationWarning& w : evaluation->warnings) sentences << coreSentence(w.sentence);
     callout()->show(Tone::Attention,
                     sentences.mid(0, 2).join(QLatin1Char(' ')) +
                         (sentences.size() > 2 ? tr(" And %1 more.").arg(sentences.size() - 2) : QString()));

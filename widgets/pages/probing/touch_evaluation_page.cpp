@@ -161,7 +161,7 @@ void TouchEvaluationPage::refresh() {
   } else if (!stored->good_enough || !stored->warnings.empty() || !stored->rejected.empty()) {
     QStringList sentences;
     if (!stored->rejected.empty()) sentences << context().workflow.status(step()).sentence;  // how many of how many
-    for (const std::string& w : stored->warnings) sentences << coreSentence(w);
+    for (const EvaluationWarning& w : stored->warnings) sentences << coreSentence(w.sentence);
     callout()->show(Tone::Attention,
                     sentences.mid(0, 2).join(QLatin1Char(' ')) +
                         (sentences.size() > 2 ? tr(" And %1 more.").arg(sentences.size() - 2) : QString()));

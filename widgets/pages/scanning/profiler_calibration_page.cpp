@@ -95,8 +95,8 @@ void ProfilerCalibrationPage::refresh() {
     QStringList sentences;
     if (!stored->rejected.empty()) sentences << context().workflow.status(step()).sentence;  // how many of how many
     // What the calibration cannot determine stands beside its numbers.
-    for (const std::string& w : stored->warnings)
-      if (!isCalibrationWarning(w)) sentences << coreSentence(w);
+    for (const EvaluationWarning& w : stored->warnings)
+      if (w.kind == WarningKind::Finding) sentences << coreSentence(w.sentence);
     if (sentences.isEmpty()) {
       callout()->show(Tone::Good, tr("Deviations found: %1; see what the calibration cannot determine.")
                                       .arg(static_cast<int>(stored->observations.rows.size())));
@@ -136,9 +136,9 @@ void ProfilerCalibrationPage::showCalibration(const ScanEvaluation& evaluation) 
   }
   calibration_->setRows(std::move(rows));
   if (!c.usable()) {
-    undetermined_->show(
-        Tone::Attention,
-        coreSentence(c.message.empty() && !evaluation.warnings.empty() ? evaluation.warnings.front() : c.message));
+    undetermined_->show(Tone::Attention, coreSentence(c.message.empty() && !evaluation.warnings.empty()
+                                                          ? evaluation.warnings.front().sentence
+                                                          : c.message));
   } else {
     undetermined_->set(c.undetermined.empty() ? Tone::Neutral : Tone::Attention, coreSentence(c.message));
   }
