@@ -118,11 +118,6 @@ void CaptureList::takeIn(std::uint64_t from, std::string_view text) {
   }
 }
 
-bool CaptureList::holds(const std::string& row) {
-  refresh();
-  return rows_.contains(nameOf(row));
-}
-
 std::optional<ListChange> CaptureList::changeFor(const std::string& header, const std::vector<std::string>& rows) {
   refresh();
   if (seen_.there && seen_.size > 0 && header_ != header) {

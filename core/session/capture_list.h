@@ -38,7 +38,6 @@ class CaptureList {
   /// What puts these rows where their time belongs; nothing if all are there. Rows of one time stay in the order in
   /// which they came; no row moves before a comment. Throws InputError: the list has other columns, cannot be read.
   [[nodiscard]] std::optional<ListChange> changeFor(const std::string& header, const std::vector<std::string>& rows);
-  [[nodiscard]] bool holds(const std::string& row);
   /// Makes the change and flushes it. Throws InputError (disk full ...); the list is as it was then.
   void apply(const ListChange& change);
   /// SHA-256 of the file as it is now; empty if there is none.

@@ -256,8 +256,10 @@ CaptureList& Session::listOf(const CampaignRecord& record, const std::string& li
   return *known;
 }
 
-void Session::addRows(const CampaignRecord& record, const std::string& list, const std::string& header,
-                      const std::vector<std::string>& rows, const std::vector<std::string>& files) {
+void Session::addCaptureRows(std::int64_t id, const std::string& list, const std::string& header,
+                             const std::vector<std::string>& rows) {
+  database_->requireInPlace();
+  const CampaignRecord record = place(id);
   CaptureList& known = listOf(record, list);
   const std::string name = "captures/" + list;
   if (const std::optional<ListChange> change = known.changeFor(header, rows)) {
@@ -271,33 +273,7 @@ void Session::addRows(const CampaignRecord& record, const std::string& list, con
       throw;
     }
   }
-  recordFiles(*database_, record, files, {{name, known.hash()}});
-}
-
-void Session::addCapture(std::int64_t id, const std::string& list, const std::string& header, const std::string& row,
-                         const std::filesystem::path& source, const std::string& relative_name) {
-  database_->requireInPlace();
-  const CampaignRecord record = place(id);
-  std::vector<std::string> files;
-  if (!source.empty()) {
-    const std::filesystem::path stored =
-        InsideFolder(record.folder).path("captures/" + relative_name, {record.folder, ""});
-    const std::string content = readFile(source);
-    if (!listOf(record, list).holds(row)) {
-      writeFileAtomically(stored, content);
-    } else if (readFile(stored) != content) {
-      throw InputError({stored, ""}, "is there already with another content; allowed: a new name for a new capture.");
-    }
-    files.push_back("captures/" + relative_name);
-  }
-  addRows(record, list, header, {row}, files);
-}
-
-void Session::addCaptureRows(std::int64_t id, const std::string& list, const std::string& header,
-                             const std::vector<std::string>& rows) {
-  database_->requireInPlace();
-  const CampaignRecord record = place(id);
-  addRows(record, list, header, rows, filesNamedIn(record.folder, rows));
+  recordFiles(*database_, record, filesNamedIn(record.folder, rows), {{name, known.hash()}});
 }
 
 void Session::setArrival(std::int64_t id, const std::string& name, const nlohmann::json& item) {
@@ -342,11 +318,6 @@ nlohmann::json Session::inputs(std::int64_t id) const {
           {"exclusions", items},
           {"machine", machine.empty() ? std::string() : Fingerprint().add(machine.dump()).text()},
           {"clocks", clocks.empty() ? nlohmann::json::object() : clocks}};
-}
-
-std::int64_t Session::addResult(std::int64_t id, const std::string& kind, const nlohmann::json& options,
-                                const nlohmann::json& payload) {
-  return keepResult(originOf(id, kind, options), payload)->id;
 }
 
 ResultOrigin Session::originOf(std::int64_t id, const std::string& kind, const nlohmann::json& options,

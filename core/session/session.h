@@ -157,12 +157,6 @@ class Session {
   [[nodiscard]] CampaignRecord campaign(std::int64_t id) const;
   /// Takes a campaign and its results out of the session. Its files are moved to `removed/` inside the session.
   void removeCampaign(std::int64_t id);
-  /// Adds one captured item: copies `source` (may be empty: a row without a file) to `captures/<relative_name>`
-  /// (atomically) and `row` to `captures/<list>`, as `addCaptureRows` does. Either both are there afterwards or the row
-  /// is not. A row that is there already is not added again, so that a capture which was cut short can be repeated.
-  /// Throws InputError: disk full, folder gone, the row is there with another file, the list has other columns.
-  void addCapture(std::int64_t campaign, const std::string& list, const std::string& header, const std::string& row,
-                  const std::filesystem::path& source, const std::string& relative_name);
   /// Adds rows to `captures/<list>` for files that lie in the campaign folder already, or for lists without files
   /// (touches). Rows go where their time belongs, so that captures may arrive out of order; rows that are there
   /// already are not added again. All of them are there afterwards, or none. What that costs does not depend on how
@@ -192,9 +186,6 @@ class Session {
   /// Files a result under the campaign that it was started for; nothing if that is no longer in the session. Returns
   /// what was stored, without reading it again.
   std::optional<StoredResult> keepResult(const ResultOrigin& origin, nlohmann::json payload);
-  /// Both at once, for what is ready the moment it is asked for.
-  std::int64_t addResult(std::int64_t campaign, const std::string& kind, const nlohmann::json& options,
-                         const nlohmann::json& payload);
   [[nodiscard]] std::optional<StoredResult> latestResult(std::int64_t campaign, const std::string& kind) const;
   [[nodiscard]] std::optional<UnreadResult> latestUnread(std::int64_t campaign, const std::string& kind) const;
   [[nodiscard]] std::vector<StoredResult> results(std::int64_t campaign) const;
@@ -233,8 +224,6 @@ class Session {
   /// Without its fingerprint, which may take a while to make.
   [[nodiscard]] CampaignRecord place(std::int64_t id) const;
   [[nodiscard]] CaptureList& listOf(const CampaignRecord& record, const std::string& list);
-  void addRows(const CampaignRecord& record, const std::string& list, const std::string& header,
-               const std::vector<std::string>& rows, const std::vector<std::string>& files);
 
   std::filesystem::path folder_;
   std::unique_ptr<SessionLock> lock_;

@@ -4517,10 +4517,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>ist schon vorhanden und nicht leer; zulässig: ein neuer oder leerer Ordner.</translation>
     </message>
     <message>
-        <source>is there already with another content; allowed: a new name for a new capture.</source>
-        <translation>ist mit anderem Inhalt schon vorhanden; zulässig: ein neuer Name für eine neue Aufnahme.</translation>
-    </message>
-    <message>
         <source>is there and not empty; allowed: a new folder.</source>
         <translation>ist vorhanden und nicht leer; zulässig: ein neuer Ordner.</translation>
     </message>

@@ -18,6 +18,7 @@
 #include "core/session/session.h"
 #include "tests/app/cli/child_process.h"
 #include "tests/core/plant/temporary_postgres.h"
+#include "tests/support/session_steps.h"
 #include "tests/support/source_folder.h"
 #include "tests/support/temp_folder.h"
 
@@ -33,10 +34,10 @@ void makeSession(const std::filesystem::path& folder, const std::string& start_u
   const std::int64_t id = s.newCampaign("warm-up", start_utc,
                                         R"({"format":"spindrift-machine","version":1,"name":"mill",
                                             "chain":"V [w-X'-Y'-b-Z-t]","axes":[{"name":"X","travel_mm":[0,300]}]})");
-  s.addResult(id, "fit", {},
-              {{"status", "converged"},
-               {"state", "M1"},
-               {"parameters", {{"EX_um", {{"value", value}, {"standard_uncertainty", 0.2}}}}}});
+  addResult(s, id, "fit", {},
+            {{"status", "converged"},
+             {"state", "M1"},
+             {"parameters", {{"EX_um", {{"value", value}, {"standard_uncertainty", 0.2}}}}}});
 }
 
 TEST(PlantCommand, PublishesListsTrendsAndExports) {

@@ -6,6 +6,7 @@
 #include "core/base/job_context.h"
 #include "core/session/session.h"
 #include "tests/app/cli/child_process.h"
+#include "tests/support/session_steps.h"
 #include "tests/support/source_folder.h"
 #include "tests/support/temp_folder.h"
 
@@ -28,10 +29,11 @@ TEST(SessionCommand, SaysHowFarEveryStepIsAndWhatChanged) {
     const auto id = session.newCampaign("c", "2026-01-31T08:00:00Z",
                                         R"({"format":"spindrift-machine","version":1,"name":"mill",
                                             "chain":"V [w-X'-Y'-b-Z-t]","axes":[{"name":"X","travel_mm":[0,300]}]})");
-    session.addCapture(id, "fiducials.csv", "time_s,image", "0,captures/a.jpg", folder.write("a.jpg", "a"), "a.jpg");
-    session.addResult(id, "check", nlohmann::json::object(),
-                      {{"captures", {{{"image", "captures/a.jpg"}, {"good", false}}}}});
-    session.addResult(id, "evaluate", nlohmann::json::object(), {{"json", nlohmann::json::object()}});
+    addCapture(session, id, "fiducials.csv", "time_s,image", "0,captures/a.jpg", folder.write("a.jpg", "a"),
+               "captures/a.jpg");
+    addResult(session, id, "check", nlohmann::json::object(),
+              {{"captures", {{{"image", "captures/a.jpg"}, {"good", false}}}}});
+    addResult(session, id, "evaluate", nlohmann::json::object(), {{"json", nlohmann::json::object()}});
   }
   // Captures are evaluated otherwise than by the first revision, which counted none.
   nlohmann::json answer = jsonOf({"session", place});

@@ -6,11 +6,13 @@
 #include "core/simulation/virtual_campaign.h"
 #include "tests/core/plant/both_stores.h"
 #include "tests/support/refusal.h"
+#include "tests/support/session_steps.h"
 #include "tests/support/source_folder.h"
 
 namespace spindrift {
 namespace {
 
+using ::spindrift::testing::addResult;
 using ::spindrift::testing::OnBothStores;
 using ::spindrift::testing::refusal;
 using ::spindrift::testing::TempFolder;
@@ -28,15 +30,15 @@ class PublishTest : public OnBothStores {
                                               "chain":"V [w-X'-Y'-b-Z-t]","axes":[{"name":"X","travel_mm":[0,300]}]})");
     folder_.write(name + "/campaigns/warm-up/captures/images/0.jpg", "0");
     s.addCaptureRows(id, "fiducials.csv", "time_s,image", {"0,captures/images/0.jpg"});
-    s.addResult(id, "fit", {{"points", {"F1"}}},
-                {{"status", "converged"},
-                 {"state", "M1"},
-                 {"parameters",
-                  {{"EX_um", {{"value", 1.5}, {"standard_uncertainty", 0.2}}},
-                   {"EY_um", {{"value", nullptr}, {"standard_uncertainty", nullptr}}}}},
-                 {"parameter_order", {"EX_um", "EY_um"}},
-                 {"covariance", {{0.04, nullptr}, {nullptr, nullptr}}}});
-    s.addResult(id, "report", {}, {{"file", "a.html"}});
+    addResult(s, id, "fit", {{"points", {"F1"}}},
+              {{"status", "converged"},
+               {"state", "M1"},
+               {"parameters",
+                {{"EX_um", {{"value", 1.5}, {"standard_uncertainty", 0.2}}},
+                 {"EY_um", {{"value", nullptr}, {"standard_uncertainty", nullptr}}}}},
+               {"parameter_order", {"EX_um", "EY_um"}},
+               {"covariance", {{0.04, nullptr}, {nullptr, nullptr}}}});
+    addResult(s, id, "report", {}, {{"file", "a.html"}});
     return s;
   }
 };
@@ -98,12 +100,12 @@ TEST_P(PublishTest, SessionPublishesWhatItKnowsOfTheMachine) {
 TEST_P(PublishTest, ARejectedFitIsPublishedAsRejectedAndWithoutParameters) {
   (void)make();
   Session s = session("a");
-  s.addResult(1, "fit", {{"points", {"F1", "F2"}}},
-              {{"status", "rejected"},
-               {"state", "M1"},
-               {"parameters", {{"EX_um", {{"value", 0.0}, {"standard_uncertainty", 0.0}}}}},
-               {"parameter_order", {"EX_um"}},
-               {"covariance", {{0.0}}}});
+  addResult(s, 1, "fit", {{"points", {"F1", "F2"}}},
+            {{"status", "rejected"},
+             {"state", "M1"},
+             {"parameters", {{"EX_um", {{"value", 0.0}, {"standard_uncertainty", 0.0}}}}},
+             {"parameter_order", {"EX_um"}},
+             {"covariance", {{0.0}}}});
   (void)publishFromSession(s, {1}, address());
   PlantStore store = PlantStore::open(address());
   const PlantCampaign c = store.campaign(store.campaigns("mill").at(0).id);

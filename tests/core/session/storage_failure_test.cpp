@@ -14,11 +14,14 @@
 #include "core/base/error.h"
 #include "core/session/session.h"
 #include "tests/support/child_process.h"
+#include "tests/support/session_steps.h"
 #include "tests/support/temp_folder.h"
 
 namespace spindrift {
 namespace {
 
+using ::spindrift::testing::addCapture;
+using ::spindrift::testing::addResult;
 using ::spindrift::testing::inChildProcess;
 using ::spindrift::testing::TempFolder;
 using ::testing::AllOf;
@@ -53,18 +56,19 @@ class StorageFailure : public ::testing::Test {
   [[nodiscard]] Session begun(const std::filesystem::path& place) const {
     Session session = Session::create(place);
     const auto id = session.newCampaign("c", "2026-01-31T08:00:00Z", small_machine_json);
-    session.addCapture(id, "fiducials.csv", header, "0,first.jpg", small_, "first.jpg");
-    session.addResult(id, "fit", {}, 1);
+    addCapture(session, id, "fiducials.csv", header, "0,captures/first.jpg", small_, "captures/first.jpg");
+    addResult(session, id, "fit", {}, 1);
     return session;
   }
   void capture(Session& session, const std::string& name, const std::filesystem::path& source) const {
-    session.addCapture(session.campaigns().at(0).id, "fiducials.csv", header, "1," + name, source, name);
+    addCapture(session, session.campaigns().at(0).id, "fiducials.csv", header, "1,captures/" + name, source,
+               "captures/" + name);
   }
   /// Everything of begun() is there and whole, and nothing half-made lies about.
   static std::string intact(const std::filesystem::path& place, const std::string& rows_after) {
     const Session session = Session::open(place);
     const CampaignRecord record = session.campaigns().at(0);
-    if (readFile(record.folder / "captures/fiducials.csv") != "time_s,image\n0,first.jpg\n" + rows_after) {
+    if (readFile(record.folder / "captures/fiducials.csv") != "time_s,image\n0,captures/first.jpg\n" + rows_after) {
       return "the list changed";
     }
     if (readFile(record.folder / "captures/first.jpg") != std::string(1000, 's')) return "the first image changed";
@@ -92,18 +96,18 @@ TEST_F(StorageFailure, FileThatFindsNoRoomIsOneSentenceAndWorkGoesOnAfterwards) 
               setrlimit(RLIMIT_FSIZE, &full);
               const std::string image = outcomeOf([&] { capture(session, "b.jpg", large_); });
               const std::string result =
-                  outcomeOf([&] { session.addResult(id, "fit", {}, std::string(300'000, 'r')); });
+                  outcomeOf([&] { addResult(session, id, "fit", {}, std::string(300'000, 'r')); });
               setrlimit(RLIMIT_FSIZE, &limit);
               if (image.find("cannot be written") == std::string::npos) return "image: " + image;
               if (result.find("cannot be used") == std::string::npos) return "result: " + result;
               const std::string again = outcomeOf([&] {
                 capture(session, "b.jpg", large_);
-                session.addResult(id, "fit", {}, std::string(300'000, 'r'));
+                addResult(session, id, "fit", {}, std::string(300'000, 'r'));
               });
               return again;
             }),
             "done");
-  EXPECT_EQ(intact(place, "1,b.jpg\n"), "intact");
+  EXPECT_EQ(intact(place, "1,captures/b.jpg\n"), "intact");
 }
 
 TEST_F(StorageFailure, FullDiskKeepsWhatWasStoredAndTakesMoreWhenThereIsRoomAgain) {
@@ -121,13 +125,13 @@ TEST_F(StorageFailure, FullDiskKeepsWhatWasStoredAndTakesMoreWhenThereIsRoomAgai
       for (int i = 0;; ++i) writeFileAtomically(disk / ("filler" + std::to_string(i)), std::string(8192, 'f'));
     });
     const std::string image = outcomeOf([&] { capture(session, "b.jpg", large_); });
-    const std::string result = outcomeOf([&] { session.addResult(id, "fit", {}, std::string(100'000, 'r')); });
+    const std::string result = outcomeOf([&] { addResult(session, id, "fit", {}, std::string(100'000, 'r')); });
     if (image.find("No space left") == std::string::npos) return "image: " + image;
     if (result.find("full") == std::string::npos) return "result: " + result;
     for (int i = 0; i < 60; ++i) std::filesystem::remove(disk / ("filler" + std::to_string(i)));
     capture(session, "b.jpg", large_);
     { const Session closed = std::move(session); }
-    return intact(disk / "s", "1,b.jpg\n");
+    return intact(disk / "s", "1,captures/b.jpg\n");
   });
   if (answer == "not permitted") GTEST_SKIP() << "a file system of its own cannot be mounted here";
   EXPECT_EQ(answer, "intact");
@@ -158,7 +162,7 @@ TEST_F(StorageFailure, FolderThatTurnsReadOnlyInMidWorkLosesNothing) {
     }
     if (::geteuid() == 0 && ::seteuid(65534) != 0) return "no other user";
     const std::string image = outcomeOf([&] { capture(session, "b.jpg", small_); });
-    const std::string result = outcomeOf([&] { session.addResult(id, "fit", {}, 2); });
+    const std::string result = outcomeOf([&] { addResult(session, id, "fit", {}, 2); });
     const std::string note = outcomeOf([&] { session.addNote(id, "Capture", "x"); });
     return image + "|" + result + "|" + note;
   });
@@ -177,7 +181,8 @@ TEST_F(StorageFailure, VanishedFolderIsSaidAndNothingIsMadeInItsPlace) {
   JobContext job;
   std::filesystem::rename(place, folder_ / "away");
   for (const std::string& sentence :
-       {outcomeOf([&] { capture(session, "b.jpg", small_); }), outcomeOf([&] { session.addResult(id, "fit", {}, 2); }),
+       {outcomeOf([&] { session.addCaptureRows(id, "fiducials.csv", header, {"1,captures/b.jpg"}); }),
+        outcomeOf([&] { addResult(session, id, "fit", {}, 2); }),
         outcomeOf([&] { session.addNote(id, "Capture", "x"); }), outcomeOf([&] { session.exclude(id, "a", "b"); }),
         outcomeOf([&] { session.setSetting("a", 1); }),
         outcomeOf([&] { session.newCampaign("d", "2026-01-31T08:00:00Z", small_machine_json); })}) {
@@ -187,7 +192,7 @@ TEST_F(StorageFailure, VanishedFolderIsSaidAndNothingIsMadeInItsPlace) {
   std::filesystem::rename(folder_ / "away", place);
   capture(session, "b.jpg", small_);
   { const Session closed = std::move(session); }
-  EXPECT_EQ(intact(place, "1,b.jpg\n"), "intact");
+  EXPECT_EQ(intact(place, "1,captures/b.jpg\n"), "intact");
 }
 
 TEST_F(StorageFailure, SourceOfAnImportThatVanishesLeavesNoTrace) {

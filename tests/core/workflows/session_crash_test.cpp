@@ -17,12 +17,15 @@
 #include "core/simulation/scenario.h"
 #include "core/simulation/virtual_campaign.h"
 #include "core/workflows/evaluate_campaign.h"
+#include "tests/support/session_steps.h"
 #include "tests/support/source_folder.h"
 #include "tests/support/temp_folder.h"
 
 namespace spindrift {
 namespace {
 
+using ::spindrift::testing::addCapture;
+using ::spindrift::testing::addResult;
 using ::spindrift::testing::TempFolder;
 
 constexpr int kills = 50;
@@ -85,15 +88,16 @@ void operate(const std::filesystem::path& place, const Material& material, int p
   const std::size_t rows = linesOf(session.campaign(touched).folder / "captures/touches.csv").size();
   for (std::size_t i = rows > 0 ? rows - 1 : 0;; ++i) {
     if (i >= material.touches.size()) ::_exit(5);
-    session.addCapture(touched, "touches.csv", material.header, material.touches[i], {}, "");
+    session.addCaptureRows(touched, "touches.csv", material.header, {material.touches[i]});
     acknowledge(pipe, 'c');
     if (i % 3 == 0) {
-      const std::string name = "images/" + std::to_string(i) + ".jpg";
-      session.addCapture(seen, "pictures.csv", image_header, std::to_string(i) + "," + name, material.picture(i), name);
+      const std::string name = "captures/images/" + std::to_string(i) + ".jpg";
+      addCapture(session, seen, "pictures.csv", image_header, std::to_string(i) + "," + name, material.picture(i),
+                 name);
       acknowledge(pipe, 'p');
     }
     if (i > 60 && i % 4 == 0) {
-      session.addResult(touched, "evaluate", nlohmann::json::object(), evaluated(session, touched));
+      addResult(session, touched, "evaluate", nlohmann::json::object(), evaluated(session, touched));
       acknowledge(pipe, 'r');
     }
   }
@@ -225,7 +229,7 @@ class KilledCampaign : public ::testing::Test {
     EXPECT_LE(rows, acknowledged_.pictures + 1);
     for (std::size_t i = 0; i < rows; ++i) {
       const std::string name = lines[i + 1].substr(lines[i + 1].find(',') + 1);
-      EXPECT_EQ(readFile(campaign / "captures" / name), readFile(material_.picture(std::stoul(lines[i + 1]))));
+      EXPECT_EQ(readFile(campaign / name), readFile(material_.picture(std::stoul(lines[i + 1]))));
     }
     acknowledged_.pictures = rows;
   }

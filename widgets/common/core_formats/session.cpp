@@ -29,7 +29,6 @@ std::span<const char* const> spindrift::gui::core_formats::session() noexcept {
     QT_TRANSLATE_NOOP("core", "is not there any more (removed, renamed, or the network folder is gone). Nothing was stored; bring the folder back and do the last step again."),
     QT_TRANSLATE_NOOP("core", "is of version {} and cannot be copied before it is changed: {}; make room beside it or open it with the older program."),
     QT_TRANSLATE_NOOP("core", "is open in another window ({}). Close it there first; nothing was changed here."),
-    QT_TRANSLATE_NOOP("core", "is there already with another content; allowed: a new name for a new capture."),
     QT_TRANSLATE_NOOP("core", "keeps the campaign \"{}\" in \"{}\"; allowed: a folder in campaigns."),
     QT_TRANSLATE_NOOP("core", "reading the files"),
     QT_TRANSLATE_NOOP("core", "the session's database cannot be used: {}."),

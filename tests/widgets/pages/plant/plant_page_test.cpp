@@ -25,6 +25,7 @@
 #include "core/connect/utc_time.h"
 #include "core/plant/batch_queue.h"
 #include "core/plant/plant_store.h"
+#include "tests/support/session_steps.h"
 #include "tests/support/temp_folder.h"
 #include "widgets/common/languages.h"
 #include "widgets/common/parts.h"
@@ -241,10 +242,10 @@ TEST_F(PlantPageTest, PublishesTheOpenSession) {
     const auto id = session.newCampaign("warm-up", "2026-01-31T08:00:00Z",
                                         R"({"format":"spindrift-machine","version":1,"name":"new mill",
                                             "chain":"V [w-X'-Y'-b-Z-t]","axes":[{"name":"X","travel_mm":[0,300]}]})");
-    session.addResult(id, "fit", {},
-                      {{"status", "converged"},
-                       {"state", "M1"},
-                       {"parameters", {{"EX_um", {{"value", 1.0}, {"standard_uncertainty", 0.2}}}}}});
+    testing::addResult(session, id, "fit", {},
+                       {{"status", "converged"},
+                        {"state", "M1"},
+                        {"parameters", {{"EX_um", {{"value", 1.0}, {"standard_uncertainty", 0.2}}}}}});
   }
   window_->open(QString::fromStdString((folder_ / "s").string()));
   wait();
