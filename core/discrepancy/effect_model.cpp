@@ -213,15 +213,6 @@ std::vector<double> EffectModel::contribution(const DriverTable& drivers, const 
   return out;
 }
 
-std::vector<double> EffectModel::effectPart(std::span<const Observation> rows) const {
-  std::vector<double> sum(rows.size(), 0.0);
-  for (const ModelEffect& e : effects_) {
-    const std::vector<double> part = contribution(*drivers_, e, rows);
-    for (std::size_t r = 0; r < rows.size(); ++r) sum[r] += part[r];
-  }
-  return sum;
-}
-
 nlohmann::json EffectModel::json() const {
   nlohmann::json effects = nlohmann::json::array();
   for (const ModelEffect& e : effects_) {

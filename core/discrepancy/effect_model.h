@@ -45,10 +45,10 @@ class EffectModel : public ErrorModel {
                                                  Component component) const override;
   [[nodiscard]] const std::vector<ModelEffect>& effects() const noexcept { return effects_; }
   [[nodiscard]] const DriverTable& drivers() const noexcept { return *drivers_; }
-  /// Sum of the effects (without the base) for many rows at once, um or urad.
-  [[nodiscard]] std::vector<double> effectPart(std::span<const Observation> rows) const;
-  /// Standard uncertainty of that sum, from the covariances of the effects.
+  /// Standard uncertainty of the sum of the effects (without the base) for many rows at once, from the covariances of
+  /// the effects.
   [[nodiscard]] std::vector<double> effectSigma(std::span<const Observation> rows) const;
+  /// What one effect adds to each row, um or urad.
   [[nodiscard]] static std::vector<double> contribution(const DriverTable& drivers, const ModelEffect& effect,
                                                         std::span<const Observation> rows);
   /// model.json.

@@ -84,25 +84,4 @@ double CameraSource::framesPerSecond() const {
   return rate > 0.0 && rate < 1000.0 ? rate : 0.0;
 }
 
-void writeVideo(const std::string& file, const std::vector<GrayImage>& images, double frames_per_second) {
-  if (images.empty()) throw InputError({file, ""}, "cannot be written: no images.");
-  const cv::Size size(images.front().width(), images.front().height());
-  std::unique_ptr<cv::VideoWriter> writer;
-  try {
-    writer = imageFiles().writer(file, frames_per_second, size.width, size.height);
-  } catch (const cv::Exception&) {
-    throw InputError({file, ""}, "cannot be written as a video.");
-  }
-  if (writer == nullptr) throw InputError({file, ""}, "cannot be written as a video; allowed: a name ending in .avi.");
-  for (const GrayImage& image : images) {
-    if (image.width() != size.width || image.height() != size.height) {
-      throw InputError({file, ""}, "cannot be written: the images differ in size.");
-    }
-    const cv::Mat grey(size, CV_8UC1, const_cast<std::uint8_t*>(image.data()));
-    cv::Mat colour;
-    cv::cvtColor(grey, colour, cv::COLOR_GRAY2BGR);
-    writer->write(colour);
-  }
-}
-
 }  // namespace spindrift

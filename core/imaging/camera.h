@@ -35,7 +35,4 @@ class CameraSource {
   bool file_ = false;
 };
 
-/// Writes images of one size as a video (Motion-JPEG in AVI), for trials and tests. Throws InputError.
-void writeVideo(const std::string& file, const std::vector<GrayImage>& images, double frames_per_second);
-
 }  // namespace spindrift

@@ -185,11 +185,6 @@ void PlacementOptions::validate(std::size_t candidates) const {
   }
 }
 
-PlacementResult judgeMeasuringPoints(const std::vector<Eigen::Vector3d>& candidates_mm,
-                                     const std::vector<std::size_t>& chosen, const PlacementOptions& options) {
-  return Design(candidates_mm, options).judge(chosen);
-}
-
 namespace {
 
 /// A choice that keeps a distance: how many of the chosen stand too close to each candidate is counted.

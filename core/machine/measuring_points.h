@@ -57,9 +57,4 @@ struct PlacementResult {
 [[nodiscard]] PlacementResult chooseMeasuringPoints(const std::vector<Eigen::Vector3d>& candidates_mm,
                                                     const PlacementOptions& options, const JobContext& job);
 
-/// The figures of one given choice, for comparison with the optimum.
-[[nodiscard]] PlacementResult judgeMeasuringPoints(const std::vector<Eigen::Vector3d>& candidates_mm,
-                                                   const std::vector<std::size_t>& chosen,
-                                                   const PlacementOptions& options);
-
 }  // namespace spindrift

@@ -6,8 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
-#include <tuple>
 
 namespace spindrift {
 
@@ -149,28 +147,6 @@ ProbedFeature fitFeature(const TouchList& list, std::span<const std::size_t> ind
     result.covariance += height.sigma_mm * height.sigma_mm * options.axis * options.axis.transpose();
   }
   return result;
-}
-
-std::vector<ProbedFeature> featuresOf(const TouchList& list, const MachineDescription& machine,
-                                      const Artefact& artefact, const FeatureOptions& options) {
-  std::map<std::tuple<std::string, std::string, std::string, double>, std::size_t> group_of;
-  std::vector<std::vector<std::size_t>> groups;
-  for (std::size_t i = 0; i < list.touches.size(); ++i) {
-    const Touch& t = list.touches[i];
-    if (t.artefact != artefact.id) continue;
-    const auto [group, fresh] = group_of.try_emplace({t.cycle, t.feature, t.stylus, t.c_deg}, groups.size());
-    if (fresh) groups.emplace_back();
-    groups[group->second].push_back(i);
-  }
-  const FeatureKind kind = artefact.kind == "hole_bar" ? FeatureKind::Hole : FeatureKind::Sphere;
-  std::vector<ProbedFeature> features;
-  features.reserve(groups.size());
-  for (const std::vector<std::size_t>& indices : groups) {
-    const Stylus* stylus = machine.findStylus(list.touches[indices.front()].stylus);
-    SPINDRIFT_ASSERT(stylus != nullptr, "touches were checked against the machine");
-    features.push_back(fitFeature(list, indices, kind, stylus->radius_mm, options));
-  }
-  return features;
 }
 
 }  // namespace spindrift

@@ -72,8 +72,4 @@ struct SurfaceHeight {
 /// True if the touch approaches along the axis (a surface touch of a hole feature), false if across it (the wall).
 [[nodiscard]] bool isSurfaceTouch(const Touch& touch, const Eigen::Vector3d& axis);
 
-/// All features of an artefact in the list, grouped by cycle, feature, stylus and table angle, in order of appearance.
-[[nodiscard]] std::vector<ProbedFeature> featuresOf(const TouchList& list, const MachineDescription& machine,
-                                                    const Artefact& artefact, const FeatureOptions& options);
-
 }  // namespace spindrift

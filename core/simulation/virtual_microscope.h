@@ -45,18 +45,6 @@ struct MicroscopeScene {
   void validate() const;
 };
 
-/// Ideal positions of what is wholly in view.
-struct SceneTruth {
-  struct Mark {
-    int a = 0;  ///< row of an ellipse, i of a circle
-    int b = 0;  ///< column of an ellipse, j of a circle
-    double x_px = 0.0;
-    double y_px = 0.0;
-  };
-  std::vector<Mark> ellipses;
-  std::vector<Mark> circles;
-};
-
 /// A map that shows FCF point `pattern_um` at pixel `pixel`, with the distortion about the image's centre.
 [[nodiscard]] PatternMap poseAt(int width_px, int height_px, double pixel_length_um, double tilt_rad,
                                 const Eigen::Vector2d& pattern_um, const Eigen::Vector2d& pixel, double k1_per_px2 = 0,
@@ -64,9 +52,5 @@ struct SceneTruth {
 
 [[nodiscard]] GrayImage renderFiducial(const FiducialPattern& pattern, const MicroscopeScene& scene,
                                        std::uint64_t seed);
-
-/// Where the marks are; an ellipse counts as wholly in view if its outline is at least `margin_px` inside the image.
-[[nodiscard]] SceneTruth sceneTruth(const FiducialPattern& pattern, const MicroscopeScene& scene,
-                                    double margin_px = 1.0);
 
 }  // namespace spindrift

@@ -55,11 +55,4 @@ struct VirtualProbeOptions {
                                             const std::string& cycle, double start_s, const TipDeviation& deviation,
                                             const VirtualProbeOptions& options, Random& random);
 
-/// Parameters of FORMATS.md in the order of the names (um, urad, um/m).
-/// Hole bar: EXX, EX0C, EY0C, EZ0T, ER0T, EA0C, EB0C, EC0C, EME, and optionally the slope of the second axis.
-[[nodiscard]] TipDeviation holeBarDeviation(const MachineDescription& machine, const Artefact& artefact,
-                                            std::vector<double> parameters);
-/// Balls: hX..hZ, aX..aZ, dX..dZ, gX..gZ.
-[[nodiscard]] TipDeviation ballDeviation(const MachineDescription& machine, std::vector<double> parameters);
-
 }  // namespace spindrift

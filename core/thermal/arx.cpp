@@ -306,35 +306,6 @@ std::vector<double> ArxModel::stepResponse(std::size_t input, std::size_t sample
   return {y.begin() + static_cast<std::ptrdiff_t>(lead), y.end()};
 }
 
-std::vector<double> ArxModel::stepResponseSigma(std::size_t input, std::size_t samples) const {
-  SPINDRIFT_ASSERT(input < b.size(), "no such input");
-  const auto n = static_cast<Index>(samples);
-  const Index na = a.size();
-  const Index nb = b[input].size();
-  Index at = na;
-  for (std::size_t i = 0; i < input; ++i) at += b[i].size();
-  if (covariance.rows() < at + nb) return std::vector<double>(samples, std::nan(""));
-  const std::vector<double> s = stepResponse(input, samples);
-  // A(q) ds/da_j = -q^-j s and A(q) ds/db_j = q^-(nk + j) step: every derivative runs through the same denominator.
-  Eigen::MatrixXd g = Eigen::MatrixXd::Zero(n, na + nb);
-  for (Index k = 0; k < n; ++k) {
-    for (Index j = 1; j <= na; ++j) {
-      if (k < j) break;
-      g(k, j - 1) -= s[static_cast<std::size_t>(k - j)];
-      g.row(k) -= a[j - 1] * g.row(k - j);
-    }
-    for (Index j = 0; j < nb; ++j)
-      if (k >= order.nk[input] + j) g(k, na + j) += 1.0;
-  }
-  Eigen::MatrixXd part(na + nb, na + nb);
-  part << covariance.topLeftCorner(na, na), covariance.block(0, at, na, nb), covariance.block(at, 0, nb, na),
-      covariance.block(at, at, nb, nb);
-  const Eigen::VectorXd variance = (g * part).cwiseProduct(g).rowwise().sum();
-  std::vector<double> out(samples);
-  for (Index k = 0; k < n; ++k) out[static_cast<std::size_t>(k)] = std::sqrt(std::max(0.0, variance[k]));
-  return out;
-}
-
 ArxModel stabilised(const ArxModel& model, double limit) {
   ArxModel out = model;
   std::vector<std::complex<double>> poles = model.poles();
@@ -360,64 +331,6 @@ ArxModel stabilised(const ArxModel& model, double limit) {
     out.c *= std::abs(factor);
   }
   out.message = fmt::format("unstable poles were drawn to |z| = {}; judge it in free run before use.", limit);
-  return out;
-}
-
-PrintedModelAnalysis analysePrintedModel(const PrintedModel& printed, double horizon_s) {
-  if (printed.b.size() < 2 || printed.a.empty() || printed.b[0] == 0.0 || !(printed.period_s > 0.0)) {
-    throw InputError("a printed model needs at least one a, two b with b0 not zero, and a positive period.");
-  }
-  PrintedModelAnalysis out;
-  ArxModel model;
-  model.period_s = printed.period_s;
-  model.order.na = static_cast<int>(printed.b.size()) - 1;
-  model.order.nb = {static_cast<int>(printed.a.size())};
-  model.order.nk = {0};
-  model.a.resize(model.order.na);
-  for (int j = 0; j < model.order.na; ++j) model.a[j] = printed.b[static_cast<std::size_t>(j) + 1] / printed.b[0];
-  model.b.emplace_back(static_cast<Index>(printed.a.size()));
-  for (std::size_t j = 0; j < printed.a.size(); ++j) model.b[0][static_cast<Index>(j)] = printed.a[j] / printed.b[0];
-  model.covariance.resize(0, 0);
-  // Sums of printed decimals: extended precision keeps the last digits.
-  long double numerator = 0.0L;
-  long double denominator = 0.0L;
-  for (const double v : printed.a) numerator += v;
-  for (const double v : printed.b) denominator += v;
-  out.gain = static_cast<double>(numerator / denominator);
-  const double da = 0.5 * printed.last_digit * static_cast<double>(printed.a.size());
-  const double db = 0.5 * printed.last_digit_b * static_cast<double>(printed.b.size() - 1);
-  const auto low = static_cast<double>(denominator) - db;
-  const auto high = static_cast<double>(denominator) + db;
-  const double infinite = std::numeric_limits<double>::infinity();
-  out.gain_low = infinite;
-  out.gain_high = -infinite;
-  for (const double top : {static_cast<double>(numerator) - da, static_cast<double>(numerator) + da}) {
-    for (const double bottom : {low, high}) {
-      out.gain_low = std::min(out.gain_low, top / bottom);
-      out.gain_high = std::max(out.gain_high, top / bottom);
-    }
-  }
-  if (low <= 0.0 && high >= 0.0) {
-    out.gain_low = -infinite;
-    out.gain_high = infinite;
-  }
-  out.determined = std::isfinite(out.gain_low) && out.gain_high - out.gain_low < 0.05 * std::abs(out.gain);
-  for (const auto& t : model.timeConstants()) out.time_constants_s.push_back(t.value_s);
-  const auto samples = static_cast<std::size_t>(horizon_s / printed.period_s) + 1;
-  const std::vector<double> response = model.stepResponse(0, samples);
-  const std::size_t stride = std::max<std::size_t>(1, samples / 500);
-  for (std::size_t k = 0; k < samples; k += stride) {
-    out.step_time_s.push_back(static_cast<double>(k) * printed.period_s);
-    out.step_response.push_back(response[k]);
-  }
-  if (!out.determined) {
-    out.warning = fmt::format(
-        "the printed digits do not determine the gain: the sum of the denominator is {:.2g}, half a unit of its last "
-        "digits is {:.2g}; gains "
-        "from {:.3g} to {:.3g} round to the same print. Identify at a period suited to the time constants and keep all "
-        "digits.",
-        static_cast<double>(denominator), db, out.gain_low, out.gain_high);
-  }
   return out;
 }
 

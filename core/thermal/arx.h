@@ -63,8 +63,6 @@ struct ArxModel {
                                              std::span<const double> start) const;
   /// Response to a unit step of one input.
   [[nodiscard]] std::vector<double> stepResponse(std::size_t input, std::size_t samples) const;
-  /// Standard uncertainty of every value of it, by first-order propagation of the covariance (NaN without one).
-  [[nodiscard]] std::vector<double> stepResponseSigma(std::size_t input, std::size_t samples) const;
 };
 
 /// y and every u at a constant period, all of one length, no missing values.
@@ -73,26 +71,5 @@ struct ArxModel {
 
 /// The same model with its poles drawn into |z| <= limit (factor by factor); gains are kept. Says so in `message`.
 [[nodiscard]] ArxModel stabilised(const ArxModel& model, double limit = 0.9999);
-
-/// P2, Table 2: a transfer function given by printed digits. b(q) y = a(q) u at `period_s`.
-struct PrintedModel {
-  std::vector<double> a;       ///< coefficients of u(k), u(k-1), ...
-  std::vector<double> b;       ///< of y(k), y(k-1), ...; b[0] != 0
-  double last_digit = 1e-7;    ///< of a
-  double last_digit_b = 1e-7;  ///< of b
-  double period_s = 1.0;
-};
-struct PrintedModelAnalysis {
-  double gain = 0.0;
-  double gain_low =
-      0.0;  ///< over all values that round to the printed digits; infinite when the denominator may vanish
-  double gain_high = 0.0;
-  bool determined = true;                ///< false: the digits do not determine the gain
-  std::vector<double> time_constants_s;  ///< slowest first
-  std::vector<double> step_time_s;
-  std::vector<double> step_response;
-  std::string warning;
-};
-[[nodiscard]] PrintedModelAnalysis analysePrintedModel(const PrintedModel& model, double horizon_s);
 
 }  // namespace spindrift

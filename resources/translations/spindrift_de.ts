@@ -2753,10 +2753,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>ein Raster von {} µm ist unzulässig; zulässig: 20 ... 100000 µm.</translation>
     </message>
     <message>
-        <source>a printed model needs at least one a, two b with b0 not zero, and a positive period.</source>
-        <translation>ein gedrucktes Modell braucht mindestens ein a, zwei b mit b0 ungleich null und eine positive Periode.</translation>
-    </message>
-    <message>
         <source>a process</source>
         <translation>ein Prozess</translation>
     </message>
@@ -3375,22 +3371,6 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>failed the check. Take them again, or exclude them.</source>
         <translation>haben die Prüfung nicht bestanden. Wiederholen oder ausschließen.</translation>
-    </message>
-    <message>
-        <source>cannot be written as a video.</source>
-        <translation>kann nicht als Video geschrieben werden.</translation>
-    </message>
-    <message>
-        <source>cannot be written as a video; allowed: a name ending in .avi.</source>
-        <translation>kann nicht als Video geschrieben werden; zulässig: ein Name, der auf .avi endet.</translation>
-    </message>
-    <message>
-        <source>cannot be written: no images.</source>
-        <translation>kann nicht geschrieben werden: keine Bilder.</translation>
-    </message>
-    <message>
-        <source>cannot be written: the images differ in size.</source>
-        <translation>kann nicht geschrieben werden: die Bilder sind verschieden groß.</translation>
     </message>
     <message>
         <source>cannot be written: {}.</source>
@@ -6399,10 +6379,6 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>the positions do not determine all nine parameters: at least three that are not on one line are needed</source>
         <translation>die Positionen bestimmen nicht alle neun Parameter: nötig sind mindestens drei, die nicht auf einer Geraden liegen</translation>
-    </message>
-    <message>
-        <source>the printed digits do not determine the gain: the sum of the denominator is {:.2g}, half a unit of its last digits is {:.2g}; gains from {:.3g} to {:.3g} round to the same print. Identify at a period suited to the time constants and keep all digits.</source>
-        <translation>die gedruckten Stellen bestimmen die Verstärkung nicht: die Summe des Nenners ist {:.2g}, eine halbe Einheit seiner letzten Stellen {:.2g}; Verstärkungen von {:.3g} bis {:.3g} runden auf denselben Druck. Mit einer zu den Zeitkonstanten passenden Periode identifizieren und alle Stellen behalten.</translation>
     </message>
     <message>
         <source>the program ends with the probe not above the artefact</source>

@@ -21,6 +21,7 @@
 #include "core/base/random.h"
 #include "core/imaging/decoder.h"
 #include "core/simulation/virtual_microscope.h"
+#include "tests/support/scene_truth.h"
 
 namespace {
 

@@ -24,6 +24,7 @@
 #include "core/thermal/arx.h"
 #include "core/thermal/output_error.h"
 #include "tests/support/response_run.h"
+#include "tests/support/step_response_sigma.h"
 
 namespace {
 
@@ -138,7 +139,7 @@ void arx(const char* name, const ArxSystem& system, int runs) {
       counts[2].add(taus[1].value_s, -10.0 / std::log(0.5), taus[1].sigma_s);
     }
     const std::vector<double> estimated = m.stepResponse(0, 100);
-    const std::vector<double> sigmas = m.stepResponseSigma(0, 100);
+    const std::vector<double> sigmas = stepResponseSigma(m, 0, 100);
     for (const std::size_t k : at) counts[3].add(estimated[k], step[k], sigmas[k]);
   }
   double all = runs;

@@ -15,6 +15,7 @@
 #include "core/discrepancy/distributed_dynamics.h"
 #include "core/discrepancy/effect_model.h"
 #include "core/discrepancy/residual_problem.h"
+#include "tests/core/discrepancy/effect_part.h"
 #include "tests/core/discrepancy/small_plant.h"
 
 namespace spindrift {
@@ -144,7 +145,7 @@ TEST(Dynamics, OfTheModelAreThoseOfThePrediction) {
   const DiscrepancyInput input = campaign(Hidden::TurnAndDrift, 2);
   const DiscrepancyResult result = run(input);
   ASSERT_NE(result.model, nullptr);
-  const std::vector<double> part = result.model->effectPart(input.observations.rows);
+  const std::vector<double> part = effectPart(*result.model, input.observations.rows);
   ASSERT_EQ(part.size(), result.effect_part.size());
   for (std::size_t i = 0; i < part.size(); i += 7) EXPECT_NEAR(part[i], result.effect_part[i], 1e-9);
   const auto query = DeviationQuery::of(input.observations.rows.back());
@@ -176,12 +177,12 @@ TEST(Dynamics, OfSeveralPossibleDriversAreAveragedWithTheScatterAmongThem) {
   const ModelEffect heat = drivenBy(input, *drivers, "spindle_rpm^1", 1800.0, 0.8);
   const ModelEffect bearing = drivenBy(input, *drivers, "T_spindle_degC", 600.0, 0.2);
   const auto& rows = input.observations.rows;
-  const std::vector<double> by_heat = EffectModel(drivers, {heat}).effectPart(rows);
-  const std::vector<double> by_bearing = EffectModel(drivers, {bearing}).effectPart(rows);
+  const std::vector<double> by_heat = effectPart(EffectModel(drivers, {heat}), rows);
+  const std::vector<double> by_bearing = effectPart(EffectModel(drivers, {bearing}), rows);
   const std::vector<double> sigma_heat = EffectModel(drivers, {heat}).effectSigma(rows);
   const std::vector<double> sigma_bearing = EffectModel(drivers, {bearing}).effectSigma(rows);
   const EffectModel mean(drivers, averagedEffects({{heat}, {bearing}}, {0.7, 0.3}));
-  const std::vector<double> part = mean.effectPart(rows);
+  const std::vector<double> part = effectPart(mean, rows);
   const std::vector<double> sigma = mean.effectSigma(rows);
   for (std::size_t i = 0; i < rows.size(); i += 5) {
     EXPECT_NEAR(part[i], 0.7 * by_heat[i] + 0.3 * by_bearing[i], 1e-9);

@@ -10,6 +10,7 @@
 
 #include "core/base/random.h"
 #include "core/discrepancy/catalogue.h"
+#include "tests/core/discrepancy/effect_part.h"
 #include "tests/support/outside_folder.h"
 #include "tests/support/refusal.h"
 #include "tests/support/temp_folder.h"
@@ -133,7 +134,7 @@ TEST(EffectModel, EveryVariantOfEveryFamilySurvivesSavingAndLoading) {
           const PredictedComponent predicted = model.predict(q, c);
           const double value = predicted.value;
           // For many rows at once the same as one by one.
-          EXPECT_NEAR(model.effectPart({&row, 1})[0], value, 1e-9 * (1.0 + std::abs(value))) << effect.id;
+          EXPECT_NEAR(effectPart(model, {&row, 1})[0], value, 1e-9 * (1.0 + std::abs(value))) << effect.id;
           EXPECT_NEAR(model.effectSigma({&row, 1})[0], predicted.sigma, 1e-9 * (1.0 + predicted.sigma)) << effect.id;
           largest = std::max(largest, std::abs(value));
           EXPECT_EQ(loaded->predict(q, c).value, value) << effect.id;

@@ -9,6 +9,7 @@
 #include "core/base/random.h"
 #include "core/imaging/artwork.h"
 #include "core/simulation/virtual_microscope.h"
+#include "tests/support/scene_truth.h"
 
 namespace spindrift {
 namespace {

@@ -26,6 +26,14 @@ PlacementOptions tableOptions(int count, PlacementCriterion criterion) {
   return options;
 }
 
+/// Of one given choice: nothing is left to choose.
+PlacementResult figuresOf(const std::vector<Eigen::Vector3d>& candidates, const std::vector<std::size_t>& chosen,
+                          PlacementOptions options) {
+  options.count = static_cast<int>(chosen.size());
+  options.fixed = chosen;
+  return chooseMeasuringPoints(candidates, options, {});
+}
+
 TEST(MeasuringPoints, FourPositionsBelongIntoTheCorners) {
   for (const PlacementCriterion criterion : {PlacementCriterion::D, PlacementCriterion::I}) {
     const auto result = chooseMeasuringPoints(lattice(5, 4), tableOptions(4, criterion), {});
@@ -56,8 +64,8 @@ TEST(MeasuringPoints, PaperSetOneBeatsSetTwo) {
   const std::vector<Eigen::Vector3d> fiducials{{20, 15, 0},  {280, 15, 0}, {280, 115, 0}, {20, 115, 0},
                                                {110, 40, 0}, {190, 40, 0}, {110, 90, 0},  {190, 90, 0}};
   const PlacementOptions options = tableOptions(4, PlacementCriterion::I);
-  const auto corners = judgeMeasuringPoints(fiducials, {0, 1, 2, 3}, options);
-  const auto diagonal = judgeMeasuringPoints(fiducials, {1, 3, 4, 6}, options);
+  const auto corners = figuresOf(fiducials, {0, 1, 2, 3}, options);
+  const auto diagonal = figuresOf(fiducials, {1, 3, 4, 6}, options);
   ASSERT_EQ(corners.status, FitStatus::Converged);
   ASSERT_EQ(diagonal.status, FitStatus::Converged);
   EXPECT_LT(corners.mean_sigma_um, 0.8 * diagonal.mean_sigma_um);
@@ -146,7 +154,7 @@ TEST(MeasuringPoints, AThousandPositionsAreChosenInSeconds) {
       // Better than any regular choice of as many.
       std::vector<std::size_t> regular;
       for (std::size_t i = 0; std::ssize(regular) < options.count; i += distance_mm > 0.0 ? 7 : 3) regular.push_back(i);
-      const PlacementResult plain = judgeMeasuringPoints(candidates, regular, options);
+      const PlacementResult plain = figuresOf(candidates, regular, options);
       if (criterion == PlacementCriterion::D) {
         EXPECT_GT(result.log_det, plain.log_det);
       } else {

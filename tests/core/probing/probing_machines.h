@@ -8,6 +8,7 @@
 
 #include "core/probing/evaluate_touches.h"
 #include "core/simulation/virtual_probe.h"
+#include "tests/core/probing/probe_deviations.h"
 
 namespace spindrift::probing_test {
 

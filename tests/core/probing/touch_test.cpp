@@ -4,6 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "tests/core/probing/probing_machines.h"
 #include "tests/support/temp_folder.h"
@@ -142,10 +146,13 @@ TEST(Feature, HoleGivesDiameterThroughTheStylusRadius) {
   VirtualProbeOptions options;
   options.noise_um = options.surface_noise_um = 0.0;
   const VirtualRun run = runCycles(m, 1, options, 1);
-  const std::vector<ProbedFeature> features = featuresOf(run.list, m, m.artefacts.front(), {});
-  ASSERT_EQ(features.size(), 12U);
+  std::map<std::pair<std::string, double>, std::vector<std::size_t>> touches_of;
+  for (std::size_t i = 0; i < run.list.touches.size(); ++i)
+    touches_of[{run.list.touches[i].feature, run.list.touches[i].c_deg}].push_back(i);
+  ASSERT_EQ(touches_of.size(), 12U);
   const HoleBarSetup setup = HoleBarSetup::of(m, m.artefacts.front());
-  for (const ProbedFeature& f : features) {
+  for (const auto& [hole, touches] : touches_of) {
+    const ProbedFeature f = fitFeature(run.list, touches, FeatureKind::Hole, m.findStylus("p0")->radius_mm);
     ASSERT_EQ(f.status, FitStatus::Converged) << f.message;
     EXPECT_NEAR(f.diameter_mm, 12.0, 1e-9);
     EXPECT_LT((f.centre_mm - setup.nominal_mm(HoleBarSetup::holeIndex(f.feature), f.c_deg)).norm(), 1e-9);

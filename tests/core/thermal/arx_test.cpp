@@ -10,6 +10,7 @@
 #include "core/base/random.h"
 #include "core/math/statistics.h"
 #include "core/thermal/output_error.h"
+#include "tests/support/step_response_sigma.h"
 
 namespace spindrift {
 namespace {
@@ -68,13 +69,13 @@ TEST(Arx, TheStepResponseHoldsItsIntervalsAsOftenAsStated) {
   truth.a = Eigen::Vector2d(-1.4, 0.45);
   truth.b = {Eigen::Vector2d(0.3, -0.1)};
   const std::vector<double> step = truth.stepResponse(0, 61);
-  EXPECT_TRUE(std::isnan(truth.stepResponseSigma(0, 3)[2]));  // no covariance, no uncertainty
+  EXPECT_TRUE(std::isnan(stepResponseSigma(truth, 0, 3)[2]));  // no covariance, no uncertainty
   for (std::uint64_t run = 0; run < 300; ++run) {
     Random random(3000 + run);
     const auto u = randomSteps(random, 800);
     const ArxModel m = fitArx(secondOrder(u, random, 0.05), {u}, truth.order, 10.0);
     const std::vector<double> estimate = m.stepResponse(0, 61);
-    const std::vector<double> sigma = m.stepResponseSigma(0, 61);
+    const std::vector<double> sigma = stepResponseSigma(m, 0, 61);
     EXPECT_EQ(sigma[0], 0.0);  // nothing moves before the delay
     for (const std::size_t k : {1UL, 8UL, 60UL}) {
       inside += std::abs(estimate[k] - step[k]) < 1.96 * sigma[k];
@@ -171,20 +172,27 @@ TEST(Arx, AnUnstableFitIsNamedAndCanBeMadeStable) {
   EXPECT_THAT(s.message, HasSubstr("drawn to"));
 }
 
-TEST(PrintedModel, TheDigitsOfP2DoNotDetermineItsGain) {
-  PrintedModel p2;
-  p2.a = {-0.0130427, 0.0130361, 0.0};
-  p2.b = {1.0, -1.9982716, 0.9982720};
-  p2.last_digit = 1e-7;
-  p2.last_digit_b = 1e-6;
-  const PrintedModelAnalysis r = analysePrintedModel(p2, 30000.0);
-  EXPECT_NEAR(r.gain, -16.5, 0.01);
-  ASSERT_EQ(r.time_constants_s.size(), 2U);
-  EXPECT_NEAR(r.time_constants_s[0], 3640.0, 40.0);
-  EXPECT_NEAR(r.time_constants_s[1], 690.0, 8.0);
-  EXPECT_NEAR(r.step_response.back(), -16.5, 0.1);
-  EXPECT_FALSE(r.determined);
-  EXPECT_THAT(r.warning, HasSubstr("do not determine"));
+/// A transfer function given by printed digits (P2, Table 2): 1 - 1.998 z^-1 + ... is near enough to a double
+/// integrator that the last digits decide its gain, while its time constants stand.
+TEST(Arx, TheDigitsOfP2DoNotDetermineItsGain) {
+  const auto printed = [](double a1, double a2) {
+    ArxModel model;
+    model.order = {2, {3}, {0}};
+    model.period_s = 1.0;
+    model.a = Eigen::Vector2d(a1, a2);
+    model.b = {Eigen::Vector3d(-0.0130427, 0.0130361, 0.0)};
+    return model;
+  };
+  const ArxModel p2 = printed(-1.9982716, 0.9982720);
+  EXPECT_NEAR(p2.staticGain(0).first, -16.5, 0.01);
+  const auto tau = p2.timeConstants();
+  ASSERT_EQ(tau.size(), 2U);
+  EXPECT_NEAR(tau[0].value_s, 3640.0, 40.0);
+  EXPECT_NEAR(tau[1].value_s, 690.0, 8.0);
+  EXPECT_NEAR(p2.stepResponse(0, 30001).back(), -16.5, 0.1);
+  // All of this rounds to the same digits (1e-6): gains more than twice as large, and no stable system at all.
+  EXPECT_GT(std::abs(printed(-1.9982716 - 0.12e-6, 0.9982720 - 0.12e-6).staticGain(0).first), 2.0 * 16.5);
+  EXPECT_FALSE(printed(-1.9982716 - 0.5e-6, 0.9982720 - 0.5e-6).stable());
 }
 
 TEST(Arx, HasAnEquivalentInLags) {

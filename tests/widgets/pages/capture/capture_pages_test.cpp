@@ -18,6 +18,7 @@
 #include "tests/core/probing/probing_machines.h"
 #include "tests/widgets/support/page_test.h"
 #include "tests/widgets/support/select_campaign.h"
+#include "tests/widgets/support/video.h"
 #include "widgets/commands/commands.h"
 #include "widgets/common/parts.h"
 #include "widgets/jobs/job_bar.h"
