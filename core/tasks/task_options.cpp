@@ -5,8 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <memory>
+#include <mutex>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <system_error>
+#include <utility>
 
 #include "core/base/atomic_file.h"
 #include "core/base/error.h"
@@ -48,6 +53,62 @@ ScanModelChoice optionsFrom<ScanModelChoice>(const nlohmann::json& json) {
   return {json.is_string() ? json.get<std::string>() : std::string()};
 }
 
+namespace {
+
+/// Effects put down for work that reads them. The file is there for as long as somebody holds it; what a crash left of
+/// the same campaign goes with the next one.
+class EffectsFile {
+ public:
+  /// The one of this name, put down if nobody holds it. Its name says its content. Throws InputError.
+  static std::shared_ptr<const EffectsFile> put(const std::filesystem::path& path, const std::string& text) {
+    const std::lock_guard<std::mutex> lock(mutex());
+    if (auto known = held()[path].lock()) return known;
+    std::filesystem::create_directories(path.parent_path());
+    writeFileAtomically(path, text);
+    removeAbandoned(path);
+    std::shared_ptr<const EffectsFile> put(new EffectsFile(path));
+    held()[path] = put;
+    return put;
+  }
+  EffectsFile(const EffectsFile&) = delete;
+  EffectsFile& operator=(const EffectsFile&) = delete;
+  ~EffectsFile() {
+    const std::lock_guard<std::mutex> lock(mutex());
+    const auto known = held().find(path_);
+    if (known == held().end() || !known->second.expired()) return;  // put down again meanwhile
+    held().erase(known);
+    std::error_code ignored;
+    std::filesystem::remove(path_, ignored);
+  }
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+
+ private:
+  explicit EffectsFile(std::filesystem::path path) : path_(std::move(path)) {}
+  static std::mutex& mutex() {
+    static std::mutex all;
+    return all;
+  }
+  static std::map<std::filesystem::path, std::weak_ptr<const EffectsFile>>& held() {
+    static std::map<std::filesystem::path, std::weak_ptr<const EffectsFile>> files;
+    return files;
+  }
+  /// Files named after the same campaign ("3-<digits>.json") that nobody holds.
+  static void removeAbandoned(const std::filesystem::path& path) {
+    const std::string name = path.filename().string();
+    const std::string campaign = name.substr(0, name.find('-') + 1);
+    std::error_code ignored;
+    for (const auto& entry : std::filesystem::directory_iterator(path.parent_path(), ignored)) {
+      const std::string other = entry.path().filename().string();
+      if (other.size() != name.size() || !other.starts_with(campaign) || !other.ends_with(".json")) continue;
+      if (entry.path() != path && !held().contains(entry.path())) std::filesystem::remove(entry.path(), ignored);
+    }
+  }
+
+  std::filesystem::path path_;
+};
+
+}  // namespace
+
 std::filesystem::path EffectOptions::file(const Session& session, std::int64_t campaign) {
   return session.folder() / "effects" / fmt::format("{}.json", campaign);
 }
@@ -70,11 +131,15 @@ std::shared_ptr<const Campaign> EffectOptions::applied(std::shared_ptr<const Cam
   constexpr std::size_t digits = 16;
   const std::filesystem::path version =
       file.parent_path() / fmt::format("{}-{}.json", file.stem().string(), sha256(text).substr(0, digits));
-  std::filesystem::create_directories(file.parent_path());
-  if (!std::filesystem::exists(version)) writeFileAtomically(version, text);
-  auto copy = std::make_shared<Campaign>(*campaign);
-  copy->effects = std::filesystem::absolute(version);
-  return copy;
+  // Lives as long as anybody works with it.
+  struct Applied {
+    Campaign campaign;
+    std::shared_ptr<const EffectsFile> file;
+  };
+  auto applied =
+      std::make_shared<Applied>(Applied{*campaign, EffectsFile::put(std::filesystem::absolute(version), text)});
+  applied->campaign.effects = applied->file->path();
+  return {applied, &applied->campaign};
 }
 
 SimulationOptions SimulationOptions::of(const Session& session, std::int64_t campaign, const Campaign& data) {

@@ -186,8 +186,9 @@ struct EffectOptions {
   /// The file in the session's folder after which those are named that hold the effects as edited.
   [[nodiscard]] static std::filesystem::path file(const Session& session, std::int64_t campaign);
   /// The campaign with the effects as edited; the campaign itself if none were. They are put down beside `file` under
-  /// the name of their content: work that was begun with other effects goes on with those. Any thread. Throws
-  /// InputError if they cannot be written.
+  /// the name of their content for as long as the campaign that is returned is held: work that was begun with other
+  /// effects goes on with those. Results carry the effects among their options, none refers to such a file. Any thread.
+  /// Throws InputError if they cannot be written.
   [[nodiscard]] std::shared_ptr<const Campaign> applied(std::shared_ptr<const Campaign> campaign,
                                                         const std::filesystem::path& file) const;
 };

@@ -418,12 +418,30 @@ TEST(TaskGraph, WorkGoesOnWithTheEffectsItWasBegunWith) {
   EffectOptions first, second;
   first.effects = {{"name", "first"}};
   second.effects = {{"name", "second"}};
-  const auto begun = first.applied(campaign, file);
+  auto begun = first.applied(campaign, file);
   const auto later = second.applied(campaign, file);
   EXPECT_THAT(readFile(begun->effects), HasSubstr("first"));
   EXPECT_THAT(readFile(later->effects), HasSubstr("second"));
   EXPECT_EQ(first.applied(campaign, file)->effects, begun->effects);
   EXPECT_EQ(EffectOptions().applied(campaign, file), campaign);
+  // They go with the work, and with them what a program that crashed has left of the same campaign.
+  const std::filesystem::path of_begun = begun->effects;
+  auto again = first.applied(campaign, file);
+  begun.reset();
+  EXPECT_THAT(readFile(of_begun), HasSubstr("first")) << "somebody else still works with them";
+  again.reset();
+  EXPECT_FALSE(std::filesystem::exists(of_begun));
+  const std::filesystem::path folder = file.parent_path();
+  const std::string stem = file.stem().string();
+  const std::filesystem::path abandoned = folder / (stem + "-0123456789abcdef.json");
+  const std::filesystem::path others = folder / (stem + "0-0123456789abcdef.json");
+  for (const auto& left : {abandoned, others, folder / "mine.json"}) writeFileAtomically(left, "{}");
+  again = first.applied(campaign, file);
+  EXPECT_FALSE(std::filesystem::exists(abandoned));
+  EXPECT_TRUE(std::filesystem::exists(others)) << "another campaign's";
+  EXPECT_TRUE(std::filesystem::exists(folder / "mine.json"));
+  EXPECT_THAT(readFile(again->effects), HasSubstr("first"));
+  EXPECT_THAT(readFile(later->effects), HasSubstr("second")) << "still being worked with";
 }
 
 TEST(TaskGraph, AResultThatDoesNotSayWhatItWasMadeFromIsNotTakenForCurrent) {
