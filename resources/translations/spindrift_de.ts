@@ -20364,6 +20364,14 @@ ihrem Ordner und führen nicht hinaus.
         <source>Rotation / µrad</source>
         <translation>Drehung / µrad</translation>
     </message>
+    <message>
+        <source>Speed</source>
+        <translation>Drehzahl</translation>
+    </message>
+    <message>
+        <source>Column of the spindle speed</source>
+        <translation>Spalte der Spindeldrehzahl</translation>
+    </message>
 </context>
 <context>
     <name>spindrift::gui::ItemsCard</name>

@@ -8,6 +8,7 @@
 #include <QSplitter>
 #include <QTableView>
 #include <QVBoxLayout>
+#include <algorithm>
 #include <cmath>
 
 #include "core/base/error.h"
@@ -49,6 +50,10 @@ IsoPanel::IsoPanel(QWidget* parent) : QWidget(parent) {
   ambient_ = new QComboBox;
   ambient_->setAccessibleName(tr("Ambient temperature"));
   line->addWidget(ambient_, 1);
+  line->addWidget(new QLabel(tr("Speed")));
+  speed_ = new QComboBox;
+  speed_->setAccessibleName(tr("Column of the spindle speed"));
+  line->addWidget(speed_, 1);
   line->addWidget(new QLabel(tr("From:to / s")));
   range_ = new QLineEdit;
   range_->setAccessibleName(tr("Seconds of the record that are the test, from:to"));
@@ -77,6 +82,7 @@ IsoPanel::IsoPanel(QWidget* parent) : QWidget(parent) {
                     1);
   connect(test_, &Segments::chosen, this, [this](int) { evaluate(); });
   connect(ambient_, &QComboBox::activated, this, [this](int) { evaluate(); });
+  connect(speed_, &QComboBox::activated, this, [this](int) { evaluate(); });
   connect(range_, &QLineEdit::editingFinished, this, [this] { evaluate(); });
 }
 
@@ -85,12 +91,15 @@ void IsoPanel::set(std::shared_ptr<const TimeSeries> series) {
   series_ = std::move(series);
   ambient_->clear();
   ambient_->addItem(tr("none"));
+  speed_->clear();
   if (series_ != nullptr) {
     for (const Signal& s : series_->signals) {
+      if (s.kind == SignalKind::Speed) speed_->addItem(fromCore(s.name));
       if (s.kind != SignalKind::Temperature) continue;
       ambient_->addItem(fromCore(s.name));
       if (readSensorRole(s.name) == SensorRole::Room) ambient_->setCurrentIndex(ambient_->count() - 1);
     }
+    speed_->setCurrentIndex(std::max(0, speed_->findText(QStringLiteral("spindle_rpm"))));
   }
   evaluate();
 }
@@ -100,10 +109,12 @@ void IsoPanel::evaluate() {
   rows_->setRows({});
   showCurves(false);
   ambient_->setEnabled(test_->current() == 0);
+  speed_->setEnabled(test_->current() == 1 && speed_->count() > 1);
   if (series_ == nullptr) return;
   Iso230Request request;
   request.test = test_->current() == 0 ? "etve" : "spindle";
   if (ambient_->currentIndex() > 0) request.ambient = ambient_->currentText().toStdString();
+  if (speed_->currentIndex() >= 0) request.speed = speed_->currentText().toStdString();
   try {
     const std::string range = range_->text().trimmed().toStdString();
     if (!range.empty()) request.range = TimeRange::parse(range, "The range of the test");

@@ -25,6 +25,7 @@ class IsoPanel : public QWidget {
   explicit IsoPanel(QWidget* parent = nullptr);
   void set(std::shared_ptr<const TimeSeries> series);
   [[nodiscard]] Segments* test() const { return test_; }
+  [[nodiscard]] QComboBox* speed() const { return speed_; }
   [[nodiscard]] QLineEdit* range() const { return range_; }
   [[nodiscard]] RowsModel* rows() const { return rows_; }
   /// Displacements and rotations stand in plots of their own; one that has nothing to show is hidden.
@@ -41,6 +42,7 @@ class IsoPanel : public QWidget {
   std::shared_ptr<const TimeSeries> series_;
   Segments* test_;
   QComboBox* ambient_;
+  QComboBox* speed_;  ///< column that says when the spindle runs
   QLineEdit* range_;  ///< "FROM:TO" in s; empty: the whole record
   Callout* note_;
   RowsModel* rows_;

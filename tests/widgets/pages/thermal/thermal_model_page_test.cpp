@@ -3,6 +3,7 @@
 #include "widgets/pages/thermal/thermal_model_page.h"
 
 #include <QComboBox>
+#include <QPushButton>
 #include <cmath>
 
 #include "core/base/atomic_file.h"
@@ -161,6 +162,27 @@ TEST(IsoPanelTest, DisplacementsAndRotationsHaveAnAxisEach) {
   panel.set(std::make_shared<TimeSeries>(parseTimeSeries("time_s,ez_um\n0,1\n60,2\n", "log.csv")));
   EXPECT_TRUE(panel.plot(true)->isHidden());
   EXPECT_FALSE(panel.plot()->isHidden());
+}
+
+/// Two speeds, neither of them called spindle_rpm: the first runs for an hour from minute 30, the second from
+/// minute 60.
+TEST(IsoPanelTest, TheColumnOfTheSpeedIsChosen) {
+  std::string text = "time_s,main_rpm,tool_rpm,ez_um\n";
+  for (int i = 0; i <= 240; ++i)
+    text += exactNumber(60.0 * i) + (i >= 30 && i < 90 ? ",6000" : ",0") + (i >= 60 && i < 120 ? ",2000," : ",0,") +
+            exactNumber(0.1 * i) + "\n";
+  IsoPanel panel;
+  panel.set(std::make_shared<TimeSeries>(parseTimeSeries(text, "log.csv")));
+  EXPECT_FALSE(panel.speed()->isEnabled()) << "of a machine at rest";
+  panel.test()->button(1)->click();
+  ASSERT_EQ(panel.speed()->count(), 2);
+  EXPECT_TRUE(panel.speed()->isEnabled());
+  EXPECT_TRUE(panel.note()->sentence().contains(QStringLiteral("from 0.50 h to 1.50 h")))
+      << panel.note()->sentence().toStdString();
+  panel.speed()->setCurrentIndex(1);
+  Q_EMIT panel.speed()->activated(1);
+  EXPECT_TRUE(panel.note()->sentence().contains(QStringLiteral("from 1.00 h to 2.00 h")))
+      << panel.note()->sentence().toStdString();
 }
 
 TEST_F(ThermalPages, GainsAreWrittenPerUnitOfTheInput) {
