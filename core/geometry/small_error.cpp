@@ -19,10 +19,6 @@ SmallError& SmallError::operator-=(const SmallError& other) {
   return *this;
 }
 
-RigidTransform SmallError::asTransform() const {
-  return RigidTransform::fromRotationVector(rotation_rad, translation_mm);
-}
-
 SmallError SmallError::fromTransform(const RigidTransform& near_identity) {
   return {near_identity.translation_mm(), near_identity.rotationVector_rad()};
 }

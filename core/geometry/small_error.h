@@ -28,8 +28,6 @@ struct SmallError {
   }
   [[nodiscard]] SmallError operator-() const { return {-translation_mm, -rotation_rad}; }
 
-  /// The rigid motion about the origin with this error (exact rotation).
-  [[nodiscard]] RigidTransform asTransform() const;
   /// First-order error of a motion near identity, at the origin.
   [[nodiscard]] static SmallError fromTransform(const RigidTransform& near_identity);
 };
