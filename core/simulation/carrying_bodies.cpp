@@ -150,7 +150,7 @@ PlantEffectFunction rotaryHub(const VirtualMachine& plant, const std::string& id
     const Signals rings = shared(followers(hub, {{0.93, 300.0}, {0.86, 600.0}}, plant.duration_s()));
     return [=](const PlantQuery& q) {
       const std::vector<double> rise{hub(q.time_s), at(rings, 0, q.time_s), at(rings, 1, q.time_s)};
-      const Eigen::Vector2d r = q.position_mm.head<2>() - centre.head<2>();
+      const Eigen::Vector2d r = q.placeOnTable_mm().head<2>() - centre.head<2>();
       const double growth = strainIntegral_mm({0, 3, 0.0, 360.0}, rise, alpha, 0.0, r.norm());
       SmallError e;
       if (r.norm() > 0.0) e.translation_mm.head<2>() = -growth * r.normalized();

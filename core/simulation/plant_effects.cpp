@@ -194,7 +194,7 @@ PlantEffectFunction tableEffect(const View& v) {
   if (machine.table_centre_mm) centre = *machine.table_centre_mm;
   return [v, centre](const PlantQuery& q) {
     const Eigen::Rotation2Dd mcf_from_table(q.c_rad);
-    const Eigen::Vector2d in_table = mcf_from_table.inverse() * (q.position_mm.head<2>() - centre) + centre;
+    const Eigen::Vector2d in_table = mcf_from_table.inverse() * (q.placeOnTable_mm().head<2>() - centre) + centre;
     const Eigen::Vector2d moved = mcf_from_table * tableGrowth(v, centre, in_table, q.time_s);
     SmallError e;
     e.translation_mm.head<2>() = -moved;

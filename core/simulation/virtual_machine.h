@@ -15,6 +15,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -49,6 +50,12 @@ struct PlantQuery {
   Eigen::Vector3d approach = Eigen::Vector3d::Zero();
   Eigen::Vector3d tool_offset_mm = Eigen::Vector3d::Zero();
   std::string_view point;
+  /// Where the table carries what is touched, if it is one body that is held there and grows by itself, as an artefact
+  /// does; nothing: a point of the table itself.
+  std::optional<Eigen::Vector3d> held_mm;
+
+  /// The place of the table whose movement by growth the touched point takes part in.
+  [[nodiscard]] const Eigen::Vector3d& placeOnTable_mm() const { return held_mm ? *held_mm : position_mm; }
 };
 
 /// Deviation that one cause adds.

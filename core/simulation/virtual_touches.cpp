@@ -2,6 +2,7 @@
 // Touches of a probe on a hole bar or on balls. The tip is where it was told to be plus the deviation; it triggers
 // where its surface meets the artefact, and the control notes the commanded position.
 #include <cmath>
+#include <optional>
 
 #include "core/base/error.h"
 #include "core/base/random.h"
@@ -27,13 +28,15 @@ class Prober {
   }
 
   void start(double time_s) { clock_s_ = std::max(clock_s_, time_s); }
+  /// Where the table carries the artefact that is touched next.
+  void heldAt(const Eigen::Vector3d& place_mm) { held_mm_ = place_mm; }
   std::vector<TouchRow>& rows() { return rows_; }
 
   void touch(TouchRow row, const Stylus& stylus, const TouchTarget& target, const Eigen::Vector3d& start_mm,
              const Eigen::Vector3d& approach) {
     row.time_s = clock_s_;
     clock_s_ += options_.touch_s;
-    PlantQuery query{row.time_s, start_mm, row.c_deg * rad_per_deg, approach, stylus.offset_mm, row.feature};
+    PlantQuery query{row.time_s, start_mm, row.c_deg * rad_per_deg, approach, stylus.offset_mm, row.feature, held_mm_};
     Eigen::Vector3d commanded = start_mm;
     // The deviation hardly changes over the approach: twice is enough.
     Eigen::Vector3d last_deviation = Eigen::Vector3d::Zero();
@@ -72,6 +75,7 @@ class Prober {
   const TouchOptions& options_;
   Random random_;
   double clock_s_;
+  std::optional<Eigen::Vector3d> held_mm_;
   std::vector<std::pair<double, PlantEffectFunction>> functions_;
   std::vector<TouchRow> rows_;
 };
@@ -89,8 +93,10 @@ void probeHoleBar(Prober& prober, const MachineDescription& machine, const Artef
     const Eigen::AngleAxisd turn(c_deg * rad_per_deg, Eigen::Vector3d::UnitZ());
     const Eigen::Vector3d direction = turn * bar.direction_at_c0;
     const double along = bar.nominal_positions_mm[hole] - bar.nominal_positions_mm[reference];
-    const Eigen::Vector3d surface =
-        machine.rotary.front().centre_mm + turn * (bar.reference_in_table_mm + along * bar.direction_at_c0);
+    // The bar is held at its reference hole: where the table grows it takes that hole along, and stretches nothing.
+    const Eigen::Vector3d held = machine.rotary.front().centre_mm + turn * bar.reference_in_table_mm;
+    prober.heldAt(held);
+    const Eigen::Vector3d surface = held + along * direction;
     TouchRow row;
     row.cycle = cycle;
     row.feature = "H" + std::to_string(hole + 1);

@@ -3,12 +3,15 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <fstream>
 #include <sstream>
 
 #include "core/base/atomic_file.h"
 #include "core/math/statistics.h"
+#include "core/probing/hole_cycle.h"
 #include "tests/support/source_folder.h"
 #include "tests/support/temp_folder.h"
 
@@ -211,6 +214,52 @@ TEST(VirtualCampaign, TouchesOfAHoleBarLieOnItsHolesAndMoveAgainstTheDeviation) 
   EXPECT_GT(lifted.touches[late].position_mm.z(), still.touches[late].position_mm.z() + 0.0003);
   EXPECT_NEAR(lifted.touches[late - 1].position_mm.y(), still.touches[late - 1].position_mm.y(), 1e-5)
       << "the walls of the hub are not quite alike, so that the table also turns a little";
+}
+
+TEST(VirtualCampaign, ATableThatGrowsTakesAHoleBarAlongAndStretchesNothing) {
+  Scenario scenario = shipped("hole_bar.json");
+  scenario.touches->sigma_um = 0.0;
+  scenario.touches->pretravel_um = 0.0;
+  Scenario grown = scenario;
+  grown.effects = {{"rotary.expansion.r0t", {}}};
+  scenario.effects.clear();
+  const VirtualCampaign still = simulateCampaign(scenario, 1, {});
+  const VirtualCampaign warm = simulateCampaign(grown, 1, {});
+  // The touches along x and against it of every hole at c = 0, half way through.
+  const std::size_t cycle = 12 * 60;
+  const auto moved_um = [&](std::size_t hole) {
+    const std::size_t i = cycle + 5 * hole;
+    EXPECT_EQ(warm.touches[i].feature, "H" + std::to_string(hole + 1));
+    double sum = 0.0;
+    for (const std::size_t k : {i, i + 1}) sum += warm.touches[k].position_mm.x() - still.touches[k].position_mm.x();
+    return 1e3 * 0.5 * sum;
+  };
+  const double reference = moved_um(0);
+  EXPECT_GT(std::abs(reference), 2.0);
+  // The table turns through no angle in 30 s, but it goes on warming.
+  for (std::size_t hole = 1; hole < 7; ++hole) EXPECT_NEAR(moved_um(hole), reference, 0.1) << hole;
+}
+
+/// The demo: coefficient, temperature and touches say the same of the bar, while the table under it grows as well.
+TEST(VirtualCampaign, TheHoleBarOfTheDemoGrowsAsItsTemperatureSays) {
+  const spindrift::testing::TempFolder folder;
+  writeCampaign(simulateCampaign(shipped("hole_bar.json"), std::nullopt, {}), folder / "c");
+  const Campaign campaign = Campaign::read(folder / "c");
+  const TouchList list = TouchList::read(campaign.path("captures/touches.csv"));
+  const HoleCycleResult result =
+      evaluateHoleCycles(list, campaign.machine, campaign.machine.artefacts.front(), {}, campaign.log.get());
+  ASSERT_GT(result.growth.size(), 20U);
+  double worst = 0.0;
+  for (const ExpectedGrowth& g : result.growth) {
+    const double z = std::abs(g.measured_um_per_m - g.expected_um_per_m) /
+                     std::hypot(g.measured_sigma_um_per_m, g.expected_sigma_um_per_m);
+    worst = std::max(worst, z);
+    if (g.cycle == "M15")
+      std::printf("M15: touches %.1f +- %.1f um/m, temperature %.1f um/m\n", g.measured_um_per_m,
+                  g.measured_sigma_um_per_m, g.expected_um_per_m);
+  }
+  EXPECT_LT(worst, 4.0);
+  for (const std::string& w : result.warnings) EXPECT_EQ(w.find("seems to have grown"), std::string::npos) << w;
 }
 
 TEST(VirtualCampaign, TouchesOfBallsLieOnTheBalls) {
