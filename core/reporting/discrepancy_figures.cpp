@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
+#include <utility>
 
 #include "core/base/units.h"
 #include "core/machine/interpolated_field.h"
@@ -45,14 +47,16 @@ std::optional<StackedPlot> timeHistory(const std::vector<DiscrepancyReportRow>& 
 
 }  // namespace
 
-std::optional<std::array<Field, 2>> discrepancyMaps(const std::vector<DiscrepancyReportRow>& data, FieldGrid table,
-                                                    double& time_s) {
-  // The readings of a component in order of time; a moment ends where a point comes a second time.
+std::optional<DiscrepancyMaps> discrepancyMaps(const std::vector<DiscrepancyReportRow>& data, FieldGrid table) {
+  // The readings of a component with the table at one angle in order of time; a moment ends where a point comes a
+  // second time.
   std::vector<std::vector<const DiscrepancyReportRow*>> moments;
-  for (const Component component : all_components) {
-    std::vector<const DiscrepancyReportRow*> rows;
-    for (const DiscrepancyReportRow& row : data)
-      if (row.component == component && std::isfinite(row.before) && std::isfinite(row.after)) rows.push_back(&row);
+  std::map<std::pair<Component, double>, std::vector<const DiscrepancyReportRow*>> readings;
+  for (const DiscrepancyReportRow& row : data)
+    if (std::isfinite(row.before) && std::isfinite(row.after)) readings[{row.component, row.c_deg}].push_back(&row);
+  std::set<double> angles;
+  for (const auto& [at, rows] : readings) angles.insert(at.second);
+  for (auto& [at, rows] : readings) {
     std::stable_sort(rows.begin(), rows.end(), [](const auto* a, const auto* b) { return a->time_s < b->time_s; });
     std::set<std::string> seen;
     for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -75,7 +79,6 @@ std::optional<std::array<Field, 2>> discrepancyMaps(const std::vector<Discrepanc
   }
   if (worst == nullptr) return std::nullopt;
   const Component component = worst->front()->component;
-  time_s = worst->front()->time_s;
   std::array<std::vector<ScatteredValue>, 2> values;
   std::array<std::vector<Field::Marker>, 2> markers;
   double z_mm = 0.0;
@@ -89,9 +92,11 @@ std::optional<std::array<Field, 2>> discrepancyMaps(const std::vector<Discrepanc
   }
   if (!spreadsOverPlane(values[0])) return std::nullopt;
   table.z_mm = z_mm / static_cast<double>(values[0].size());
-  std::array<Field, 2> fields{fieldBetween(component, values[0], table), fieldBetween(component, values[1], table)};
-  for (std::size_t side = 0; side < 2; ++side) fields[side].markers = std::move(markers[side]);
-  return fields;
+  DiscrepancyMaps maps{{fieldBetween(component, values[0], table), fieldBetween(component, values[1], table)},
+                       worst->front()->time_s,
+                       angles.size() > 1 ? std::optional(worst->front()->c_deg) : std::nullopt};
+  for (std::size_t side = 0; side < 2; ++side) maps.fields[side].markers = std::move(markers[side]);
+  return maps;
 }
 
 void addTimeHistories(Report& document, const std::vector<DiscrepancyReportRow>& rows, std::string_view completed) {
@@ -111,11 +116,10 @@ void addTimeHistories(Report& document, const std::vector<DiscrepancyReportRow>&
 
 void addDiscrepancyMaps(Report& document, const std::vector<DiscrepancyReportRow>& rows, const FieldGrid& table,
                         std::string_view completed) {
-  double time_s = 0.0;
-  const auto maps = discrepancyMaps(rows, table, time_s);
+  const auto maps = discrepancyMaps(rows, table);
   if (!maps) return;
-  const double limit = roundLimit((*maps)[0].largestMagnitude());
-  const std::string name(toString((*maps)[0].component));
+  const double limit = roundLimit(maps->fields[0].largestMagnitude());
+  const std::string name(toString(maps->fields[0].component));
   std::vector<Drawing> pictures;
   for (std::size_t side = 0; side < 2; ++side) {
     HeatmapPictureOptions options;
@@ -124,12 +128,13 @@ void addDiscrepancyMaps(Report& document, const std::vector<DiscrepancyReportRow
     options.subtitle = side == 0 ? "measured minus simulation" : fmt::format("measured minus {}", completed);
     options.limit = limit;
     options.legend = false;
-    pictures.push_back(heatmapPicture((*maps)[side], options));
+    pictures.push_back(heatmapPicture(maps->fields[side], options));
   }
   document.figure(drawingGrid(pictures, 2),
                   fmt::format("{} over the table at {:.2f} h, where the gap is largest, before and after on one scale; "
                               "between the points interpolated; {}",
-                              name, time_s / seconds_per_hour, heatmap_legend));
+                              maps->c_deg ? fmt::format("{}, table at {:g}°", name, *maps->c_deg) : name,
+                              maps->time_s / seconds_per_hour, heatmap_legend));
 }
 
 }  // namespace spindrift

@@ -11,10 +11,17 @@
 
 namespace spindrift {
 
-/// What is left before (0) and after (1) at the moment and in the component where it is largest before, over `table`
-/// (its z is set to that of the points); empty if the points of no moment span a plane.
-[[nodiscard]] std::optional<std::array<Field, 2>> discrepancyMaps(const std::vector<DiscrepancyReportRow>& rows,
-                                                                  FieldGrid table, double& time_s);
+/// What is left before and after over the table at one moment with the table at one angle.
+struct DiscrepancyMaps {
+  std::array<Field, 2> fields;  ///< before, after
+  double time_s = 0.0;          ///< of the first reading
+  std::optional<double> c_deg;  ///< angle of the table; empty where all was measured at one
+};
+
+/// At the moment and in the component where most is left before, over `table` (its z is set to that of the points);
+/// empty if the points of no moment span a plane.
+[[nodiscard]] std::optional<DiscrepancyMaps> discrepancyMaps(const std::vector<DiscrepancyReportRow>& rows,
+                                                             FieldGrid table);
 
 /// All points over time, one figure for each component. `completed`: what the model after is called.
 void addTimeHistories(Report& document, const std::vector<DiscrepancyReportRow>& rows, std::string_view completed);

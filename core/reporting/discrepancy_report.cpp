@@ -369,6 +369,7 @@ DiscrepancyReportData discrepancyReportData(const DiscrepancyInput& input, const
     const double none = std::nan("");
     DiscrepancyReportRow row{
         o.time_s, o.point, o.component, o.position_mm, o.sigma, none, none, o.use == ObservationUse::Holdout, o.value};
+    row.c_deg = o.c_deg;
     const auto sum = sums.find({o.point, o.component});
     if ((sum != sums.end() || input.absolute) && std::isfinite(result.simulated[i])) {
       row.before = o.value - result.simulated[i] - (input.absolute ? 0.0 : sum->second.value / sum->second.weight);

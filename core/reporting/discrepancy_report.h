@@ -28,6 +28,7 @@ struct DiscrepancyReportRow {
   bool held_out = false;
   double measured = 0.0;                                        ///< as observed
   double remaining = std::numeric_limits<double>::quiet_NaN();  ///< neither effect nor noise
+  double c_deg = 0.0;                                           ///< angle of the table
 };
 
 /// A reading far from all that the model allows, with what people find it by.

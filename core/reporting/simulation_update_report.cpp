@@ -28,6 +28,7 @@ std::vector<DiscrepancyReportRow> simulationUpdateRows(const DiscrepancyInput& i
     out.push_back({o.time_s, o.point, o.component, o.position_mm, o.sigma,
                    o.value - update.before[i] - before.constant[i], o.value - update.after[i] - after.constant[i],
                    o.use == ObservationUse::Holdout, o.value});
+    out.back().c_deg = o.c_deg;
   }
   return out;
 }

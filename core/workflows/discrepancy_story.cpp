@@ -81,12 +81,28 @@ void markSignificant(std::vector<DiscrepancySeries>& series, const DiscrepancyRe
   }
 }
 
+/// Places of a series by the angle of the table; `angles` and `positions` are those of its readings.
+void setPlaces(DiscrepancySeries& s, const std::vector<double>& angles, const std::vector<Eigen::Vector3d>& positions) {
+  std::map<double, std::pair<Eigen::Vector3d, double>> sums;
+  for (std::size_t i = 0; i < angles.size(); ++i) {
+    auto& [sum, count] = sums.try_emplace(angles[i], Eigen::Vector3d::Zero(), 0.0).first->second;
+    sum += positions[i];
+    count += 1.0;
+  }
+  for (const auto& [c_deg, sum] : sums) s.places.push_back({c_deg, sum.first / sum.second});
+  if (s.places.size() < 2) return;
+  for (const double angle : angles)
+    s.place.push_back(static_cast<std::size_t>(std::distance(sums.begin(), sums.find(angle))));
+}
+
 /// `model` holds the effects added alone; null: none were added.
 std::vector<DiscrepancySeries> seriesOf(const DiscrepancyInput& input, const DiscrepancyResult& search,
                                         const DiscrepancyResult* model) {
   const auto& rows = input.observations.rows;
   std::vector<DiscrepancySeries> out;
   std::vector<std::vector<double>> sigmas;
+  std::vector<std::vector<double>> angles;
+  std::vector<std::vector<Eigen::Vector3d>> positions;
   std::map<std::pair<std::string, Component>, std::size_t> index;
   const std::vector<double> sigma = model != nullptr ? model->model->effectSigma(rows) : std::vector<double>();
   for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -99,10 +115,14 @@ std::vector<DiscrepancySeries> seriesOf(const DiscrepancyInput& input, const Dis
     if (fresh) {
       out.emplace_back();
       sigmas.emplace_back();
+      angles.emplace_back();
+      positions.emplace_back();
       out.back().point = o.point;
       out.back().component = o.component;
     }
     DiscrepancySeries& s = out[at->second];
+    angles[at->second].push_back(o.c_deg);
+    positions[at->second].push_back(o.position_mm);
     s.position_mm += o.position_mm;
     s.time_s.push_back(o.time_s);
     s.value.push_back(o.value);
@@ -119,6 +139,7 @@ std::vector<DiscrepancySeries> seriesOf(const DiscrepancyInput& input, const Dis
   }
   for (std::size_t k = 0; k < out.size(); ++k) {
     out[k].position_mm /= static_cast<double>(out[k].value.size());
+    setPlaces(out[k], angles[k], positions[k]);
     finishSeries(out[k], sigmas[k], input.simulation_gain_uncertainty, input.absolute);
     for (double& e : out[k].explained) e -= out[k].constant_before;
   }
@@ -154,9 +175,14 @@ nlohmann::json seriesJson(const DiscrepancySeries& s) {
     for (const double v : values) out.push_back(jsonNumber(v));
     return out;
   };
+  nlohmann::json places = nlohmann::json::array();
+  for (const TablePlace& p : s.places)
+    places.push_back({p.c_deg, p.position_mm.x(), p.position_mm.y(), p.position_mm.z()});
   return {{"point", s.point},
           {"component", std::string(toString(s.component))},
           {"position_mm", {s.position_mm.x(), s.position_mm.y(), s.position_mm.z()}},
+          {"places", places},
+          {"place", s.place},
           {"time_s", s.time_s},
           {"value", s.value},
           {"simulated", s.simulated},
@@ -180,6 +206,12 @@ DiscrepancySeries seriesOf(const nlohmann::json& json) {
     return value.is_number() ? value.get<double>() : no_number;
   };
   s.position_mm = {number("position_mm", 0), number("position_mm", 1), number("position_mm", 2)};
+  if (json.contains("places")) {
+    for (const nlohmann::json& p : json.at("places"))
+      s.places.push_back(
+          {p.at(0).get<double>(), {p.at(1).get<double>(), p.at(2).get<double>(), p.at(3).get<double>()}});
+    s.place = json.at("place").get<std::vector<std::size_t>>();
+  }
   s.time_s = storedNumbers(json.at("time_s"));
   s.value = storedNumbers(json.at("value"));
   s.simulated = storedNumbers(json.at("simulated"));
@@ -203,6 +235,8 @@ DiscrepancySeries seriesOf(const nlohmann::json& json) {
                s.completed_sigma.size() == s.completed.size();
   for (const std::vector<double>* part : {&s.completed, &s.explained, &s.remaining})
     whole = whole && (part->empty() || part->size() == rows);
+  whole = whole && (s.place.empty() || s.place.size() == rows) &&
+          std::all_of(s.place.begin(), s.place.end(), [&](std::size_t at) { return at < s.places.size(); });
   if (!whole)
     throw InputError(fmt::format("the stored discrepancy holds lists of unequal length for {} of {}; search again.",
                                  toString(s.component), s.point));
@@ -309,6 +343,11 @@ void parseRest(const nlohmann::json& result, DiscrepancyStory& story) {
 
 }  // namespace
 
+TablePlace DiscrepancySeries::placeOf(std::size_t i) const {
+  if (places.empty()) return {0.0, position_mm};
+  return places[place.empty() ? 0 : place[i]];
+}
+
 double DiscrepancySeries::remainingRms() const {
   return rootMeanSquareOfKnown(remaining);
 }
@@ -372,8 +411,10 @@ DiscrepancyReportData DiscrepancyStory::reportData() const {
   data.clock_offset_uncertainty_s = clock_offset_uncertainty_s;
   for (const DiscrepancySeries& s : series) {
     for (std::size_t i = 0; i < s.time_s.size(); ++i) {
-      DiscrepancyReportRow row{s.time_s[i], s.point, s.component,   s.position_mm, s.noise,
+      const TablePlace at = s.placeOf(i);
+      DiscrepancyReportRow row{s.time_s[i], s.point, s.component,   at.position_mm, s.noise,
                                0.0,         0.0,     s.held_out[i], s.value[i]};
+      row.c_deg = at.c_deg;
       row.before = s.value[i] - s.simulated[i] - s.constant_before;
       row.after = !s.completed.empty()   ? s.value[i] - s.completed[i] - s.constant_after
                   : !s.explained.empty() ? row.before - s.explained[i]

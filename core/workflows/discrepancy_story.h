@@ -23,12 +23,20 @@
 
 namespace spindrift {
 
+/// Where a point was measured with the table at one angle.
+struct TablePlace {
+  double c_deg = 0.0;
+  Eigen::Vector3d position_mm = Eigen::Vector3d::Zero();  ///< mean of the readings there
+};
+
 /// Observations of one component at one point, in order of time. Rows that are excluded or have no simulation are not
 /// in it.
 struct DiscrepancySeries {
   std::string point;
   Component component = Component::EX;
   Eigen::Vector3d position_mm = Eigen::Vector3d::Zero();  ///< mean
+  std::vector<TablePlace> places;  ///< in order of the angles of the table; stories of earlier versions keep none
+  std::vector<std::size_t> place;  ///< of each reading, an index of `places`; empty: all in the first
   std::vector<double> time_s;
   std::vector<double> value;            ///< as observed
   std::vector<double> simulated;        ///< as given
@@ -50,6 +58,8 @@ struct DiscrepancySeries {
   /// The series by itself, or a place it belongs to, deviates more than the noise allows (1 % for all series together).
   bool significant = false;
 
+  /// Angle and position of reading `i`; of stories without places 0 and the mean.
+  [[nodiscard]] TablePlace placeOf(std::size_t i) const;
   /// Of `remaining`; NaN if nothing of it is known.
   [[nodiscard]] double remainingRms() const;
   /// Where the size of `remaining` is largest; empty if nothing of it is known.

@@ -258,12 +258,17 @@ ReviewPrediction reviewCompleted(const DiscrepancyStory& story, const Observatio
     out.why = "No effect has been added to the simulation yet.";
     return out;
   }
-  std::map<std::tuple<std::string, Component, double>, ReviewValue> known;
-  for (const DiscrepancySeries& s : story.series)
+  // Stories that keep no places tell no angles apart.
+  std::map<std::tuple<std::string, Component, double, double>, ReviewValue> known;
+  std::set<std::pair<std::string, Component>> placed;
+  for (const DiscrepancySeries& s : story.series) {
+    if (!s.places.empty()) placed.emplace(s.point, s.component);
     for (std::size_t i = 0; i < s.completed.size(); ++i)
-      known[{s.point, s.component, s.time_s[i]}] = {s.completed[i], s.completed_sigma[i]};
+      known[{s.point, s.component, s.time_s[i], s.placeOf(i).c_deg}] = {s.completed[i], s.completed_sigma[i]};
+  }
   for (const Observation& o : observations.rows) {
-    const auto at = known.find({o.point, o.component, o.time_s});
+    const double c_deg = placed.contains({o.point, o.component}) ? o.c_deg : 0.0;
+    const auto at = known.find({o.point, o.component, o.time_s, c_deg});
     out.value.push_back(at == known.end() ? no_number : at->second.value);
     out.sigma.push_back(at == known.end() ? no_number : at->second.sigma);
   }

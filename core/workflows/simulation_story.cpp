@@ -26,7 +26,7 @@ nlohmann::json rowsJson(const std::vector<DiscrepancyReportRow>& rows) {
     nlohmann::json& s = series[{r.point, r.component}];
     if (s.is_null()) s = {{"point", r.point}, {"component", toString(r.component)}};
     s["rows"].push_back({r.time_s, r.position_mm.x(), r.position_mm.y(), r.position_mm.z(), jsonNumber(r.sigma),
-                         jsonNumber(r.measured), jsonNumber(r.before), jsonNumber(r.after), r.held_out});
+                         jsonNumber(r.measured), jsonNumber(r.before), jsonNumber(r.after), r.held_out, r.c_deg});
   }
   nlohmann::json out = nlohmann::json::array();
   for (auto& [key, s] : series) out.push_back(std::move(s));
@@ -48,6 +48,8 @@ std::vector<DiscrepancyReportRow> rowsOf(const nlohmann::json& json) {
                      numberAt(r.at(7)),
                      r.at(8).get<bool>(),
                      numberAt(r.at(5))});
+      // Those of earlier versions tell no angles apart.
+      if (r.size() > 9) out.back().c_deg = numberAt(r.at(9));
     }
   }
   return out;

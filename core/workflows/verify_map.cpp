@@ -42,17 +42,28 @@ std::vector<VerifyPose> posesOf(const VerifyResult& result) {
   return poses;
 }
 
+std::vector<double> anglesOf(const VerifyResult& result) {
+  std::set<double> angles;
+  for (const VerifyPoint& p : result.points) angles.insert(p.c_deg);
+  return {angles.begin(), angles.end()};
+}
+
+VerifyPose worstPose(const VerifyResult& result, Component component) {
+  VerifyPose pose;
+  double worst = -1.0;
+  for (const VerifyPoint& p : result.points) {
+    if (p.component != component || std::abs(p.after) <= worst) continue;
+    worst = std::abs(p.after);
+    pose = {p.state, p.c_deg};
+  }
+  return pose;
+}
+
 VerifyMap verifyMap(const VerifyResult& result, const MachineDescription& machine, Component component,
                     const std::optional<VerifyPose>& pose) {
   VerifyMap map;
   map.component = component;
-  if (pose) map.pose = *pose;
-  double worst = -1.0;
-  for (const VerifyPoint& p : result.points) {
-    if (pose || p.component != component || std::abs(p.after) <= worst) continue;
-    worst = std::abs(p.after);
-    map.pose = {p.state, p.c_deg};
-  }
+  map.pose = pose ? *pose : worstPose(result, component);
   for (const VerifyPoint& p : result.points) {
     if (p.component != component || VerifyPose{p.state, p.c_deg} != map.pose) continue;
     map.points[0].push_back({p.point, p.position_mm, p.before, p.before_sigma, true});

@@ -25,6 +25,11 @@ struct VerifyPose {
 /// Of a comparison, in order of the states, then of the angles.
 [[nodiscard]] std::vector<VerifyPose> posesOf(const VerifyResult& result);
 
+/// Angles of the table in a comparison, deg, increasing.
+[[nodiscard]] std::vector<double> anglesOf(const VerifyResult& result);
+/// The pose with the largest value of a component after compensating; the first one if there is none.
+[[nodiscard]] VerifyPose worstPose(const VerifyResult& result, Component component);
+
 /// The values of one pose and component, before (0) and after (1), ready to be drawn.
 struct VerifyMap {
   Component component = Component::EX;
@@ -32,7 +37,7 @@ struct VerifyMap {
   std::array<std::vector<Field::Marker>, 2> points;
   std::array<std::optional<Field>, 2> fields;  ///< empty where the points span no plane
 };
-/// Any thread. Without a pose: the one with the largest value after compensating.
+/// Any thread. Without a pose: worstPose().
 [[nodiscard]] VerifyMap verifyMap(const VerifyResult& result, const MachineDescription& machine, Component component,
                                   const std::optional<VerifyPose>& pose);
 

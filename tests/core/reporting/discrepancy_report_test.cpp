@@ -44,10 +44,11 @@ DiscrepancyReportData data() {
 }
 
 TEST(DiscrepancyReport, MapsAreOfTheWorstMomentBeforeAndAfter) {
-  double time_s = 0.0;
-  const auto maps = discrepancyMaps(data().rows, {0, 100, 0, 80, 0, 11, 9}, time_s);
-  ASSERT_TRUE(maps.has_value());
-  EXPECT_EQ(time_s, 7200.0);
+  const auto found = discrepancyMaps(data().rows, {0, 100, 0, 80, 0, 11, 9});
+  ASSERT_TRUE(found.has_value());
+  EXPECT_EQ(found->time_s, 7200.0);
+  EXPECT_FALSE(found->c_deg.has_value()) << "there is one angle";
+  const auto* maps = &found->fields;
   EXPECT_EQ((*maps)[0].component, Component::EY);
   EXPECT_EQ((*maps)[0].grid.z_mm, 10.0);
   ASSERT_EQ((*maps)[0].markers.size(), 4U);
@@ -60,7 +61,24 @@ TEST(DiscrepancyReport, MapsAreOfTheWorstMomentBeforeAndAfter) {
   // Along a line there is no map, and that is no failure.
   DiscrepancyReportData line = data();
   for (DiscrepancyReportRow& row : line.rows) row.position_mm.y() = 0.0;
-  EXPECT_FALSE(discrepancyMaps(line.rows, {0, 100, 0, 80, 0, 11, 9}, time_s).has_value());
+  EXPECT_FALSE(discrepancyMaps(line.rows, {0, 100, 0, 80, 0, 11, 9}).has_value());
+}
+
+TEST(DiscrepancyReport, MapsAreOfOneAngleOfTheTable) {
+  DiscrepancyReportData d = data();
+  std::vector<DiscrepancyReportRow> turned = d.rows;
+  for (DiscrepancyReportRow& row : turned) {
+    row.c_deg = 90.0;
+    row.position_mm = {-row.position_mm.y(), row.position_mm.x(), row.position_mm.z()};
+    row.before *= 2.0;
+  }
+  d.rows.insert(d.rows.end(), turned.begin(), turned.end());
+  const auto maps = discrepancyMaps(d.rows, {-80, 100, 0, 100, 0, 11, 9});
+  ASSERT_TRUE(maps.has_value());
+  EXPECT_EQ(maps->c_deg, 90.0) << "where most is left";
+  ASSERT_EQ(maps->fields[0].markers.size(), 4U);
+  for (const Field::Marker& point : maps->fields[0].markers) EXPECT_LE(point.position_mm.x(), 0.0);
+  EXPECT_THAT(htmlOf(discrepancyDocument("c", d, FieldGrid{-80, 100, 0, 100, 0, 11, 9})), HasSubstr("table at 90°"));
 }
 
 TEST(DiscrepancyReport, SaysWhatWasAddedAndWhatIsProposed) {

@@ -86,6 +86,8 @@ TEST(Verify, AngleOfTheTableIsPartOfAPlace) {
   const VerifyMap map = verifyMap(result, {}, Component::EX, poses[1]);
   EXPECT_EQ(map.points[0].size(), 8U) << "each point once";
   for (const Field::Marker& p : map.points[0]) EXPECT_LT(p.value, 0.0) << p.point;
+  EXPECT_EQ(anglesOf(result), (std::vector<double>{0.0, 90.0}));
+  EXPECT_EQ(verifyMap(result, {}, Component::EX, std::nullopt).pose, worstPose(result, Component::EX));
 }
 
 TEST(Verify, MachinesOfDifferentNamesAreSaid) {

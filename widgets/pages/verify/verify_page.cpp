@@ -21,6 +21,7 @@
 #include "widgets/common/demo_names.h"
 #include "widgets/common/parts.h"
 #include "widgets/common/quantity_box.h"
+#include "widgets/common/table_angle.h"
 #include "widgets/common/words.h"
 #include "widgets/common/wrap_layout.h"
 #include "widgets/models/cells.h"
@@ -100,6 +101,10 @@ VerifyPage::VerifyPage(PageContext page_context, QWidget* parent)
   component_->setAccessibleName(tr("Component that is drawn"));
   component_->setMinimumWidth(90);
   choice->addWidget(component_);
+  angle_ = new QComboBox;
+  angle_->setAccessibleName(tr("Angle of the table at which the values were measured"));
+  angle_->hide();
+  choice->addWidget(angle_);
   right->body()->addLayout(choice);
   plot_ = new Plot;
   plot_->setEmptyText(tr("Before and after will appear here"),
@@ -116,6 +121,7 @@ VerifyPage::VerifyPage(PageContext page_context, QWidget* parent)
     showPlot();
     showMaps();
   });
+  connect(angle_, &QComboBox::activated, this, [this](int) { showPlot(); });
   connect(shown_, &Segments::chosen, this, [this] { setShown(shown_->current()); });
   connect(maps_, &VerifyMaps::stateChosen, this, &VerifyPage::showMaps);
   connect(point_table->selectionModel(), &QItemSelectionModel::currentRowChanged, this, [this](const QModelIndex& now) {
@@ -132,7 +138,18 @@ VerifyPage::VerifyPage(PageContext page_context, QWidget* parent)
 void VerifyPage::setShown(int index) {
   shown_->setCurrent(index);
   stack_->setCurrentIndex(index);
+  angle_->setVisible(index == 0 && angle_->count() > 2);
   showMaps();
+}
+
+void VerifyPage::fillAngles() {
+  const QVariant chosen = angle_->currentData();
+  angle_->clear();
+  angle_->addItem(tr("Table at its worst angle"));
+  for (const double c_deg : anglesOf(*result_))
+    angle_->addItem(tr("Table at %1°").arg(decimalText(c_deg, 'g', 6)), c_deg);
+  angle_->setCurrentIndex(std::max(0, chosen.isValid() ? angle_->findData(chosen) : 0));
+  angle_->setVisible(stack_->currentIndex() == 0 && angle_->count() > 2);
 }
 
 QWidget* VerifyPage::makeChoices() {
@@ -264,6 +281,7 @@ void VerifyPage::showResult() {
   const QString chosen = component_->currentText();
   component_->clear();
   component_->setVisible(result_ != nullptr);
+  if (result_ == nullptr) angle_->hide();
   if (result_ == nullptr) {
     components_->setRows({});
     for (NumberTile* tile : {before_, left_, verdict_}) tile->set(QStringLiteral("–"));
@@ -313,6 +331,7 @@ void VerifyPage::showResult() {
                 toneOf(result_->verdict));
   if (component_->findText(chosen) >= 0) component_->setCurrentText(chosen);
   maps_->setPoses(posesOf(*result_));
+  fillAngles();
   showPlot();
   showMaps();
 }
@@ -348,8 +367,11 @@ void VerifyPage::showPlot() {
               if (result == result_) points_->setRows(verifyPointRows(figures, component, result->goal(component)));
             };
           });
-  VerifyCurves curves = verifyCurves(*result_, *component);
-  plot_->setAxes(curves.x_title, curves.y_title);
+  const QVariant chosen = angle_->currentData();
+  const double c_deg = chosen.isValid() ? chosen.toDouble() : worstPose(*result_, *component).c_deg;
+  VerifyCurves curves = verifyCurves(*result_, *component, c_deg);
+  const bool turned = angle_->count() > 2;
+  plot_->setAxes(turned ? withTableAngle(curves.x_title, c_deg) : curves.x_title, curves.y_title);
   plot_->setContent(std::move(curves.series));
 }
 

@@ -36,6 +36,8 @@ class VerifyPage : public Page {
   [[nodiscard]] RowsModel* points() const { return points_; }
   [[nodiscard]] Plot* plot() const { return plot_; }
   [[nodiscard]] VerifyMaps* maps() const { return maps_; }
+  /// Of the table, for the values that are drawn.
+  [[nodiscard]] QComboBox* angleChoice() const { return angle_; }
   /// 0: every value, 1: on the table.
   void setShown(int index);
   [[nodiscard]] const std::shared_ptr<const VerifyResult>& result() const { return result_; }
@@ -47,6 +49,8 @@ class VerifyPage : public Page {
   /// Curves and table of the points, of the component that is chosen.
   void showPlot();
   void showMaps();
+  /// The angles of the table to choose from; without several no choice is shown.
+  void fillAngles();
 
   std::shared_ptr<const VerifyResult> result_;
 
@@ -59,6 +63,7 @@ class VerifyPage : public Page {
   NumberTile* left_;
   NumberTile* verdict_;
   QComboBox* component_;
+  QComboBox* angle_;
   RowsModel* components_;
   RowsModel* points_;
   QLabel* points_title_;

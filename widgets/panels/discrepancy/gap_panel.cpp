@@ -8,12 +8,14 @@
 #include <QVBoxLayout>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/machine/driver_words.h"
 #include "core/workflows/residual_map.h"
 #include "widgets/common/core_sentence.h"
 #include "widgets/common/page_room.h"
 #include "widgets/common/parts.h"
+#include "widgets/common/table_angle.h"
 #include "widgets/panels/common/effect_titles.h"
 #include "widgets/panels/discrepancy/gap_bars.h"
 #include "widgets/plots/plot.h"
@@ -108,9 +110,10 @@ GapPanel::GapPanel(QWidget* parent) : QWidget(parent) {
   views_[0]->link(views_[1]);
   line->addLayout(grid, 1);
   connect(moment_, &QSlider::valueChanged, this, [this](int index) {
+    if (moments_[static_cast<std::size_t>(index)].c_deg != plotted_c_deg_) showPlots();
     showViews();
     markMoment();
-    Q_EMIT timeChosen(moments_s_[static_cast<std::size_t>(index)]);
+    Q_EMIT timeChosen(moments_[static_cast<std::size_t>(index)].time_s);
   });
   connect(component_, &QComboBox::activated, this, [this](int) {
     fillMoments();
@@ -161,16 +164,15 @@ void GapPanel::fillChoices() {
 
 void GapPanel::fillMoments() {
   const auto component = static_cast<Component>(component_->currentData().toInt());
-  moments_s_ = momentsOf(*discrepancy_, component);
+  moments_ = momentsOf(*discrepancy_, component);
   const QSignalBlocker quiet(moment_);
-  moment_->setVisible(moments_s_.size() > 1);
-  moment_->setRange(0, static_cast<int>(moments_s_.empty() ? 0 : moments_s_.size() - 1));
+  moment_->setVisible(moments_.size() > 1);
+  moment_->setRange(0, static_cast<int>(moments_.empty() ? 0 : moments_.size() - 1));
   const auto worst = static_cast<int>(worstMoment(*discrepancy_, component));
   moment_->setValue(worst);
   largest_ = 0.0;
-  if (moments_s_.empty()) return;
-  const double time_s = moments_s_[static_cast<std::size_t>(worst)];
-  for (const Field::Marker& point : residualsAt(*discrepancy_, component, time_s, false)) {
+  if (moments_.empty()) return;
+  for (const Field::Marker& point : residualsAt(*discrepancy_, component, shownMoment(), false)) {
     largest_ = std::max(largest_, std::abs(point.value));
   }
 }
@@ -182,18 +184,19 @@ void GapPanel::userChose() {
 }
 
 void GapPanel::chooseTime(double time_s) {
-  if (moments_s_.empty()) return;
-  const auto nearest = std::min_element(moments_s_.begin(), moments_s_.end(), [time_s](double a, double b) {
-    return std::abs(a - time_s) < std::abs(b - time_s);
-  });
-  moment_->setValue(static_cast<int>(nearest - moments_s_.begin()));
+  if (moments_.empty()) return;
+  // Of readings at one time those at the angle that is shown.
+  const auto away = [&](const ResidualMoment& m) {
+    return std::pair(std::abs(m.time_s - time_s), m.c_deg != plotted_c_deg_);
+  };
+  const auto nearest = std::min_element(moments_.begin(), moments_.end(),
+                                        [&](const auto& a, const auto& b) { return away(a) < away(b); });
+  moment_->setValue(static_cast<int>(nearest - moments_.begin()));
 }
 
 void GapPanel::markMoment() {
   for (Plot* plot : plots_) {
-    plot->setMoment(moments_s_.empty()
-                        ? std::nullopt
-                        : std::optional(moments_s_[static_cast<std::size_t>(moment_->value())] * plot_second_));
+    plot->setMoment(moments_.empty() ? std::nullopt : std::optional(shownMoment().time_s * plot_second_));
   }
 }
 
@@ -269,6 +272,12 @@ void GapPanel::choose(const std::string& point, Component component) {
   showViews();
 }
 
+QString GapPanel::withAngle(const QString& what, double c_deg) const {
+  const bool one = std::all_of(moments_.begin(), moments_.end(),
+                               [this](const ResidualMoment& m) { return m.c_deg == moments_.front().c_deg; });
+  return one ? what : withTableAngle(what, c_deg);
+}
+
 /// What was taken as noise in the component that is shown.
 void GapPanel::showNoise() {
   QString noise = tr("Points: measured. Line: model with the free constant of the series, ± 2 σ of the noise.");
@@ -296,6 +305,13 @@ void GapPanel::showPlots() {
     return;
   }
   showNoise();
+  // What was measured with the table at another angle stood elsewhere and belongs to no line through these.
+  const auto measuredAt = [s](double c_deg) {
+    return std::any_of(s->places.begin(), s->places.end(), [c_deg](const TablePlace& p) { return p.c_deg == c_deg; });
+  };
+  plotted_c_deg_ = !moments_.empty() && measuredAt(shownMoment().c_deg) ? shownMoment().c_deg : s->placeOf(0).c_deg;
+  std::array<double, 2> squares{};
+  double fitted = 0.0;
   const TimeUnit unit = timeUnit(s->time_s.back());
   plot_second_ = 1.0 / unit.seconds;
   const QString y_title = QStringLiteral("%1 / %2").arg(componentName(s->component), componentUnit(s->component));
@@ -319,12 +335,17 @@ void GapPanel::showPlots() {
     line.style = SeriesStyle::Line;
     line.colour = 0;
     for (std::size_t i = 0; i < s->time_s.size(); ++i) {
+      if (s->placeOf(i).c_deg != plotted_c_deg_) continue;
       const double t = s->time_s[i] / unit.seconds;
       measured.x.push_back(t);
       measured.y.push_back(s->value[i]);
       line.x.push_back(t);
       line.y.push_back(model[i] + constant);
       line.sigma.push_back(s->noise);
+      if (!s->held_out[i]) {
+        squares[side] += std::pow(s->value[i] - model[i] - constant, 2);
+        fitted += side == 0 ? 1.0 : 0.0;
+      }
       low = std::min({low, measured.y.back(), line.y.back() - 2 * s->noise});
       high = std::max({high, measured.y.back(), line.y.back() + 2 * s->noise});
       if (side == 0 && s->held_out[i]) {
@@ -344,27 +365,29 @@ void GapPanel::showPlots() {
     plots_[side]->setAxes(tr("Time / %1").arg(unit.name), y_title);
     plots_[side]->setRange(std::make_pair(low, high));
     plots_[side]->setContent(content[side], content[side].empty() ? std::vector<Span>() : spans);
-    const QString point = QString::fromStdString(s->point);
+    const QString point = withAngle(QString::fromStdString(s->point), plotted_c_deg_);
+    const double rms = std::sqrt(squares[side] / fitted);
     plot_cards_[side]->setTitle(
         side == 0 ? tr("Before: %1 of %2, rms %3")
-                        .arg(componentName(s->component), point, sizeText(s->rms_before, componentUnit(s->component)))
+                        .arg(componentName(s->component), point, sizeText(rms, componentUnit(s->component)))
         : content[1].empty()
             ? tr("After")
             : tr("After: %1 of %2, rms %3")
-                  .arg(componentName(s->component), point, sizeText(s->rms_after, componentUnit(s->component))));
+                  .arg(componentName(s->component), point, sizeText(rms, componentUnit(s->component))));
   }
   markMoment();
 }
 
 void GapPanel::showViews() {
   views_stale_ = true;
-  if (!isVisible() || discrepancy_ == nullptr || component_->count() == 0 || moments_s_.empty() || !machine_) return;
+  if (!isVisible() || discrepancy_ == nullptr || component_->count() == 0 || moments_.empty() || !machine_) return;
   views_stale_ = false;
   const auto component = static_cast<Component>(component_->currentData().toInt());
   const QString unit = componentUnit(component);
-  const double time_s = moments_s_[static_cast<std::size_t>(moment_->value())];
-  const TimeUnit time = timeUnit(moments_s_.back());
-  const QString when = tr("%1 %2").arg(decimalText(time_s / time.seconds, 'f', 2)).arg(time.name);
+  const ResidualMoment moment = shownMoment();
+  const TimeUnit time = timeUnit(moments_.back().time_s);
+  const QString when =
+      withAngle(tr("%1 %2").arg(decimalText(moment.time_s / time.seconds, 'f', 2)).arg(time.name), moment.c_deg);
   moment_text_->setText(tr("On the machine at %1").arg(when));
   // One scale for both sides and all moments: that of the worst moment before.
   const ColourScale scale = ColourScale::symmetric(largest_, componentName(component), unit);
@@ -373,9 +396,9 @@ void GapPanel::showViews() {
     view->setSelected(point_->currentText());
     view->setCaption(tr("%1, measured − model at %2").arg(componentName(component), when));
   }
-  maps_.ask([this, story = discrepancy_, machine = *machine_, component, time_s]() -> std::function<void()> {
-    std::array<ResidualMap, 2> maps{residualMap(*story, machine, component, time_s, false), {}};
-    if (!story->added.empty()) maps[1] = residualMap(*story, machine, component, time_s, true);
+  maps_.ask([this, story = discrepancy_, machine = *machine_, component, moment]() -> std::function<void()> {
+    std::array<ResidualMap, 2> maps{residualMap(*story, machine, component, moment, false), {}};
+    if (!story->added.empty()) maps[1] = residualMap(*story, machine, component, moment, true);
     return [this, story, component, maps = std::move(maps)] {
       if (story != discrepancy_) return;
       for (std::size_t side = 0; side < maps.size(); ++side) showSide(side, component, maps[side]);

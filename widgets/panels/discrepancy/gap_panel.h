@@ -65,6 +65,12 @@ class GapPanel : public QWidget {
   void showSide(std::size_t side, Component component, const ResidualMap& map);
   void showNoise();
   [[nodiscard]] const DiscrepancySeries* series() const;
+  /// The moment that the slider stands at; there are moments.
+  [[nodiscard]] const ResidualMoment& shownMoment() const {
+    return moments_[static_cast<std::size_t>(moment_->value())];
+  }
+  /// With the angle of the table behind it where the component was measured at several.
+  [[nodiscard]] QString withAngle(const QString& what, double c_deg) const;
 
   GapBars* bars_;
   QLabel* model_;
@@ -81,10 +87,11 @@ class GapPanel : public QWidget {
   std::array<View3D*, 2> views_{};
   std::shared_ptr<const DiscrepancyStory> discrepancy_;
   std::optional<MachineDescription> machine_;
-  std::vector<double> moments_s_;
-  double plot_second_ = 1.0;  ///< one second on the plots' axis of time
-  bool views_stale_ = false;  ///< something changed while the panel was not in sight
-  double largest_ = 0.0;      ///< of the maps of this component, before
+  std::vector<ResidualMoment> moments_;
+  double plotted_c_deg_ = 0.0;  ///< angle of the table of the readings in the plots
+  double plot_second_ = 1.0;    ///< one second on the plots' axis of time
+  bool views_stale_ = false;    ///< something changed while the panel was not in sight
+  double largest_ = 0.0;        ///< of the maps of this component, before
   LatestWork maps_, movements_;
 };
 

@@ -8,9 +8,9 @@
 #include <cmath>
 #include <map>
 
-#include "core/reporting/discrepancy_figures.h"
 #include "core/workflows/fit_campaign.h"
 #include "widgets/common/parts.h"
+#include "widgets/common/table_angle.h"
 #include "widgets/panels/common/effect_titles.h"
 #include "widgets/plots/plot.h"
 #include "widgets/theme/numbers.h"
@@ -108,12 +108,11 @@ void SimulationMaps::show(const std::shared_ptr<const SimulationStory>& story, c
   for (std::size_t i = 0; i < 2; ++i) cards_[i]->setTitle(i == 0 ? tr("Before") : tr("After"));
   work_.ask([this, story, machine]() -> std::function<void()> {
     const std::optional<FieldGrid> table = mapTable(machine, 0.0, report_map_nodes);
-    double time_s = 0.0;
-    auto maps = table ? discrepancyMaps(story->rows, *table, time_s) : std::nullopt;
+    auto maps = table ? discrepancyMaps(story->rows, *table) : std::nullopt;
     if (!maps)
       return [this] { sayWhyEmpty(tr("The points of no moment span a plane: there is no map over the table.")); };
-    const double last_s = story->rows.empty() ? time_s : std::max(time_s, story->rows.back().time_s);
-    return [this, maps = std::move(*maps), machine, time_s, last_s] { draw(maps, machine, time_s, last_s); };
+    const double last_s = std::max(maps->time_s, story->rows.back().time_s);
+    return [this, maps = std::move(*maps), machine, last_s] { draw(maps, machine, last_s); };
   });
 }
 
@@ -121,23 +120,21 @@ void SimulationMaps::sayWhyEmpty(const QString& why) {
   for (View3D* view : views_) view->setEmptyText(tr("Measured minus simulation"), why);
 }
 
-void SimulationMaps::draw(const std::array<Field, 2>& maps, const MachineDescription& machine, double time_s,
-                          double last_s) {
+void SimulationMaps::draw(const DiscrepancyMaps& maps, const MachineDescription& machine, double last_s) {
   shown_ = true;
-  const Component component = maps[0].component;
+  const Component component = maps.fields[0].component;
   const TimeUnit unit = timeUnit(last_s);
+  const QString when = tr("%1 %2").arg(decimalText(maps.time_s / unit.seconds, 'f', 2)).arg(unit.name);
   const ColourScale scale =
-      ColourScale::symmetric(maps[0].largestMagnitude(), componentName(component), componentUnit(component));
+      ColourScale::symmetric(maps.fields[0].largestMagnitude(), componentName(component), componentUnit(component));
   for (std::size_t i = 0; i < 2; ++i) {
-    const Field& field = maps[i];
+    const Field& field = maps.fields[i];
     cards_[i]->setTitle((i == 0 ? tr("Before: largest %1") : tr("After: largest %1"))
                             .arg(sizeText(field.largestMagnitude(), componentUnit(component))));
     views_[i]->setMachine(machine);
     views_[i]->setColourScale(scale);
-    views_[i]->setCaption(tr("%1, measured − simulation at %2 %3")
-                              .arg(componentName(component))
-                              .arg(decimalText(time_s / unit.seconds, 'f', 2))
-                              .arg(unit.name));
+    views_[i]->setCaption(tr("%1, measured − simulation at %2")
+                              .arg(componentName(component), maps.c_deg ? withTableAngle(when, *maps.c_deg) : when));
     std::vector<ViewPoint> points;
     for (const Field::Marker& marker : field.markers) {
       ViewPoint p;

@@ -14,6 +14,7 @@
 
 #include "core/machine/field.h"
 #include "core/machine/machine_description.h"
+#include "core/reporting/discrepancy_figures.h"
 #include "core/reporting/series_gaps.h"
 #include "core/workflows/simulation_story.h"
 #include "widgets/export/exportable.h"
@@ -66,7 +67,7 @@ class SimulationMaps : public QWidget {
  private:
   void sayWhyEmpty(const QString& why);
   /// Before and after, at `time_s`; the measurement ends at `last_s`.
-  void draw(const std::array<Field, 2>& maps, const MachineDescription& machine, double time_s, double last_s);
+  void draw(const DiscrepancyMaps& maps, const MachineDescription& machine, double last_s);
 
   std::array<Card*, 2> cards_{};
   std::array<View3D*, 2> views_{};

@@ -11,6 +11,7 @@
 
 #include "core/base/text.h"
 #include "widgets/common/parts.h"
+#include "widgets/common/table_angle.h"
 #include "widgets/common/words.h"
 #include "widgets/models/cells.h"
 #include "widgets/theme/numbers.h"
@@ -44,7 +45,7 @@ VerifyMaps::VerifyMaps(QWidget* parent) : QWidget(parent) {
 QString VerifyMaps::nameOf(const VerifyPose& pose) const {
   const bool one = std::all_of(poses_.begin(), poses_.end(),
                                [&](const VerifyPose& other) { return other.c_deg == poses_.front().c_deg; });
-  return one ? fromCore(pose.state) : tr("%1, table at %2°").arg(fromCore(pose.state), decimalText(pose.c_deg, 'g', 6));
+  return one ? fromCore(pose.state) : withTableAngle(fromCore(pose.state), pose.c_deg);
 }
 
 void VerifyMaps::setPoses(std::vector<VerifyPose> poses) {

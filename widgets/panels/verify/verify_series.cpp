@@ -19,10 +19,10 @@ QString verifyText(const char* source) {
 
 constexpr std::array<int, 2> colours{1, 0};  // before, after
 
-std::vector<const VerifyPoint*> valuesOf(const VerifyResult& result, Component component) {
+std::vector<const VerifyPoint*> valuesOf(const VerifyResult& result, Component component, double c_deg) {
   std::vector<const VerifyPoint*> values;
   for (const VerifyPoint& p : result.points) {
-    if (p.component == component) values.push_back(&p);
+    if (p.component == component && p.c_deg == c_deg) values.push_back(&p);
   }
   return values;
 }
@@ -83,9 +83,9 @@ std::vector<Series> ranges(const std::vector<const VerifyPoint*>& values) {
 
 }  // namespace
 
-VerifyCurves verifyCurves(const VerifyResult& result, Component component) {
+VerifyCurves verifyCurves(const VerifyResult& result, Component component, double c_deg) {
   VerifyCurves curves;
-  const auto values = valuesOf(result, component);
+  const auto values = valuesOf(result, component, c_deg);
   if (values.empty()) return curves;
   const bool rotation = isRotation(component);
   const bool single = values.size() <= most_single_values;

@@ -17,10 +17,10 @@ struct VerifyCurves {
   QString y_title;
 };
 
-/// Changes of one component before and after with the goal as lines. Up to `most_single_values` each value stands with
-/// two standard uncertainties; more are drawn as the range over the points in each thermal state (the smallest and the
-/// largest value, each moved out by two of its standard uncertainties).
-[[nodiscard]] VerifyCurves verifyCurves(const VerifyResult& result, Component component);
+/// Changes of one component before and after, measured with the table at one angle (deg), with the goal as lines. Up to
+/// `most_single_values` each value stands with two standard uncertainties; more are drawn as the range over the points
+/// in each thermal state (the smallest and the largest value, each moved out by two of its standard uncertainties).
+[[nodiscard]] VerifyCurves verifyCurves(const VerifyResult& result, Component component, double c_deg);
 inline constexpr std::size_t most_single_values = 60;
 
 /// A row for each point: rms and largest change of one component, before and after, and where after is the largest.

@@ -427,6 +427,50 @@ TEST_F(DiscrepancyPageTest, ExportsPicturesAndTables) {
   }
 }
 
+TEST(GapPanelTest, ShowsWhatWasMeasuredAtOneAngleOfTheTable) {
+  auto story = std::make_shared<DiscrepancyStory>();
+  for (int p = 0; p < 3; ++p) {
+    DiscrepancySeries s;
+    s.point = "P" + std::to_string(p + 1);
+    s.component = Component::EX;
+    const Eigen::Vector3d at(100.0 + 50.0 * (p % 2), 100.0 + 50.0 * (p / 2), 0.0);
+    s.places = {{0.0, at}, {90.0, {-at.y(), at.x(), 0.0}}};
+    for (int i = 0; i < 6; ++i) {
+      s.place.push_back(static_cast<std::size_t>(i % 2));
+      s.time_s.push_back(600.0 * i);
+      s.value.push_back(i % 2 == 0 ? 1.0 : 5.0);
+      s.simulated.push_back(0.0);
+      s.held_out.push_back(false);
+    }
+    s.noise = 0.2;
+    story->series.push_back(s);
+  }
+  const MachineDescription machine;
+  GapPanel panel;
+  panel.resize(1400, 800);
+  panel.setVisible(true);
+  panel.show(story, &machine);
+  const auto measured = [&] { return panel.plot(false)->series().at(1).y; };
+  const auto shown = [&] {
+    QStringList titles;
+    for (const QLabel* label : panel.findChildren<QLabel*>()) titles << label->text();
+    return titles.join(QLatin1Char('|'));
+  };
+  ASSERT_EQ(panel.moment()->maximum(), 5) << "three moments at each angle";
+  EXPECT_EQ(panel.moment()->value(), 1) << "where most is left";
+  EXPECT_EQ(measured(), std::vector<double>(3, 5.0));
+  EXPECT_TRUE(shown().contains(QString::fromUtf8("table at 90°"))) << shown().toStdString();
+  panel.moment()->setValue(0);
+  EXPECT_EQ(measured(), std::vector<double>(3, 1.0));
+  EXPECT_TRUE(shown().contains(QString::fromUtf8("table at 0°"))) << shown().toStdString();
+  EXPECT_TRUE(QTest::qWaitFor(
+      [&] {
+        const std::vector<ViewPoint>& points = panel.view(false)->points();
+        return points.size() == 3U && points.front().position_mm.x() > 0.0 && points.front().value == 1.0;
+      },
+      2000));
+}
+
 TEST(DiscrepancyStoryTest, ReadsBackWhatItWrote) {
   const testing::TempFolder folder;
   const Campaign campaign = Campaign::read(writeStoryCampaign(folder, Hidden::SpindleGrowth));

@@ -20,6 +20,7 @@
 #include "widgets/panels/thermal/iso_panel.h"
 #include "widgets/panels/thermal/update_panel.h"
 #include "widgets/panels/verify/verify_maps.h"
+#include "widgets/panels/verify/verify_series.h"
 #include "widgets/plots/plot.h"
 #include "widgets/view3d/view3d.h"
 
@@ -32,7 +33,8 @@ constexpr double gain = 12.0;  // um at 3000 rpm
 class VerifyPages : public PageTest {
  protected:
   /// 40 h of a spindle in steps; EZ of F1 and F2 every 30 min with 0.2 um. With compensation a tenth is left.
-  std::filesystem::path write(const std::string& name, bool compensating, int points = 2) {
+  /// `turned_deg`: the last of the points is measured with the table at this angle.
+  std::filesystem::path write(const std::string& name, bool compensating, int points = 2, double turned_deg = 0.0) {
     Random random(compensating ? 12 : 11);
     Random speeds(5);
     std::string log = "time_s,spindle_rpm,compensation_on,T_room_degC\n";
@@ -45,8 +47,9 @@ class VerifyPages : public PageTest {
              exactNumber(20 + 0.5 * std::sin(i / 500.0)) + "\n";
       for (int p = 1; i % 60 == 0 && p <= points; ++p) {
         rows += std::to_string(30 * i) + ",M" + std::to_string(i / 60) + ",F" + std::to_string(p) + "," +
-                std::to_string(50 * p) + (p < 3 ? ",0" : ",150") + ",0,0,EZ," +
-                exactNumber(gain * state * (compensating ? 0.1 : 1.0) + random.normal(0, 0.2)) + ",0.2,probe,fit\n";
+                std::to_string(50 * p) + (p < 3 ? ",0" : ",150") + ",0," + exactNumber(p == points ? turned_deg : 0.0) +
+                ",EZ," + exactNumber(gain * state * (compensating ? 0.1 : 1.0) + random.normal(0, 0.2)) +
+                ",0.2,probe,fit\n";
       }
       state += (1 - std::exp(-30.0 / tau_s)) * (rpm / 3000.0 - state);
     }
@@ -118,6 +121,56 @@ TEST_F(VerifyPages, BeforeAndAfterAreJudgedAgainstTheGoal) {
   const auto set = window_->session().observations();
   ASSERT_TRUE(set != nullptr);
   for (const Observation& o : set->rows) EXPECT_EQ(o.use, ObservationUse::Exclude);
+}
+
+TEST(VerifyCurvesTest, AreOfOneAngleOfTheTable) {
+  VerifyResult result;
+  for (int state = 1; state <= 40; ++state)
+    for (const double c_deg : {0.0, 90.0})
+      for (const char* point : {"P1", "P2"})
+        result.points.push_back({point,
+                                 "M" + std::to_string(state),
+                                 {0, 0, 0},
+                                 Component::EX,
+                                 c_deg == 0.0 ? 3.0 : -9.0,
+                                 0.1,
+                                 0.5,
+                                 0.1,
+                                 c_deg});
+  // The range over the points of a state is none of both angles together.
+  const VerifyCurves curves = verifyCurves(result, Component::EX, 90.0);
+  ASSERT_EQ(curves.series[0].x.size(), 40U);
+  EXPECT_DOUBLE_EQ(curves.series[0].y[7], -9.0);
+  EXPECT_NEAR(curves.series[0].sigma[7], 0.2, 1e-9);
+  result.points.resize(60);
+  EXPECT_EQ(verifyCurves(result, Component::EX, 0.0).series[0].y, std::vector<double>(30, 3.0));
+}
+
+TEST_F(VerifyPages, AnglesOfTheTableAreChosenWhereThereAreSeveral) {
+  const auto after = write("after", true, 2, 90.0);
+  open(write("before", false, 2, 90.0));
+  auto* page = go<VerifyPage>(StepId::Verify);
+  page->setAfter(QString::fromStdString(after.string()));
+  press();
+  ASSERT_NE(page->result(), nullptr) << page->callout()->sentence().toStdString();
+  ASSERT_TRUE(page->angleChoice()->isVisible());
+  ASSERT_EQ(page->angleChoice()->count(), 3) << "the worst, 0 and 90 degrees";
+  const auto drawn = [&] { return page->plot()->series().front(); };
+  for (const int index : {1, 2}) {
+    page->angleChoice()->setCurrentIndex(index);
+    Q_EMIT page->angleChoice()->activated(index);
+    EXPECT_EQ(drawn().y, verifyCurves(*page->result(), Component::EZ, index == 1 ? 0.0 : 90.0).series.front().y);
+    EXPECT_TRUE(page->plot()
+                    ->axisTitles()
+                    .join(QLatin1Char(' '))
+                    .contains(index == 1 ? QString::fromUtf8("table at 0°") : QString::fromUtf8("table at 90°")));
+  }
+  page->setShown(1);
+  EXPECT_FALSE(page->angleChoice()->isVisible()) << "the states on the table name the angle";
+  page->setShown(0);
+  EXPECT_TRUE(page->angleChoice()->isVisible());
+  if (qEnvironmentVariableIsSet("SPINDRIFT_PICTURES"))
+    window_->grab().save(qEnvironmentVariable("SPINDRIFT_PICTURES") + QStringLiteral("/verify_angles.png"));
 }
 
 TEST_F(VerifyPages, BeforeAndAfterStandOnTheTableWithOneScale) {
