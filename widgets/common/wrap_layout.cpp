@@ -42,7 +42,7 @@ std::vector<std::pair<std::size_t, std::size_t>> WrapLayout::lines(int width) co
       continue;
     }
     const int wanted = widthOf(*items_[i], width);
-    if (result.empty() || used + spacing() + wanted > width) {
+    if (result.empty() || static_cast<int>(i) == break_before_ || used + spacing() + wanted > width) {
       result.emplace_back(i, i + 1);
       used = wanted;
     } else {
@@ -87,6 +87,12 @@ int WrapLayout::place(const QRect& area, bool move) const {
 
 int WrapLayout::heightForWidth(int width) const {
   return place(QRect(0, 0, width, 0), false);
+}
+
+void WrapLayout::setBreakBefore(int index) {
+  if (break_before_ == index) return;
+  break_before_ = index;
+  invalidate();
 }
 
 QSize WrapLayout::minimumSize() const {

@@ -25,6 +25,8 @@ class WrapLayout : public QLayout {
   [[nodiscard]] QSize minimumSize() const override;
   [[nodiscard]] QSize sizeHint() const override;
   void setGeometry(const QRect& area) override;
+  /// A new line begins with this item whether or not it would have room before; -1: none.
+  void setBreakBefore(int index);
 
  private:
   /// Lines as first index and one past the last.
@@ -34,6 +36,7 @@ class WrapLayout : public QLayout {
   [[nodiscard]] int widthOf(const QLayoutItem& item, int line_width) const;
 
   std::vector<QLayoutItem*> items_;
+  int break_before_ = -1;
   int width_ = 0;  ///< at which it was placed last; geometry() is forgotten whenever something changes
 };
 

@@ -88,6 +88,7 @@ ReviewPage::ReviewPage(PageContext page_context, QWidget* parent)
       if (!states_.empty()) sayWhatIsOutdated();
       showAll();
     });
+    connect(pane, &ReviewPane::roomChanged, this, &ReviewPage::alignChoices);
     for (View3D* view : {pane->view(), pane->scanView()}) {
       showHints(view);
       connect(view, &View3D::pointPicked, this, &ReviewPage::select);
@@ -154,6 +155,13 @@ ReviewPage::ReviewPage(PageContext page_context, QWidget* parent)
   });
 }
 
+void ReviewPage::alignChoices() {
+  const bool fit =
+      std::all_of(panes_.begin(), panes_.end(), [](const ReviewPane* p) { return p == nullptr || p->fitsInOneLine(); });
+  for (ReviewPane* pane : panes_)
+    if (pane != nullptr) pane->setSecondLine(!fit);
+}
+
 void ReviewPage::layOutPanes() {
   const int shown = 2 + count_->current();
   for (int i = 0; i < 4; ++i) {
@@ -162,6 +170,7 @@ void ReviewPage::layOutPanes() {
     pane->setVisible(i < shown);
     if (i < shown) grid_->addWidget(pane, i / 2, i % 2, 1, shown == 3 && i == 2 ? 2 : 1);
   }
+  alignChoices();
   // Other sizes: all views are fitted anew, together.
   lookAgain();
 }

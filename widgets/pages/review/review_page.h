@@ -48,6 +48,8 @@ class ReviewPage : public Page {
 
  private:
   void layOutPanes();
+  /// The choices of all panes in one line, or of all in two.
+  void alignChoices();
   void lookAgain();
   /// Of the campaigns in the panes.
   void sayWhatIsOutdated();

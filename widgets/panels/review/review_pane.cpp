@@ -64,8 +64,8 @@ ReviewPane::ReviewPane(int number, ReviewSources& sources, QWidget* parent)
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(8, 8, 8, 8);
   column->setSpacing(4);
-  auto* line = new WrapLayout;
-  line->addWidget(makeLabel(QString::number(number), "sectionTitle"));
+  choices_ = new WrapLayout;
+  choices_->addWidget(makeLabel(QString::number(number), "sectionTitle"));
   campaign_ = new QComboBox;
   campaign_->setAccessibleName(tr("Campaign of pane %1").arg(number));
   campaign_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
@@ -77,13 +77,19 @@ ReviewPane::ReviewPane(int number, ReviewSources& sources, QWidget* parent)
   for (QComboBox* box : {state_, content_}) {
     box->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
     fitToChoice(box);
-    connect(box, &QComboBox::currentIndexChanged, this, [box] { fitToChoice(box); });
+    connect(box, &QComboBox::currentIndexChanged, this, [this, box] {
+      fitToChoice(box);
+      Q_EMIT roomChanged();
+    });
   }
-  for (QComboBox* box : {campaign_, state_, content_}) box->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
-  line->addWidget(campaign_);
-  line->addWidget(state_);
-  line->addWidget(content_);
-  column->addLayout(line);
+  for (QComboBox* box : {campaign_, state_, content_}) {
+    box->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
+    box->setIconSize({0, 0});  // no choice has one, and its place would be kept
+  }
+  choices_->addWidget(campaign_);
+  choices_->addWidget(state_);
+  choices_->addWidget(content_);
+  column->addLayout(choices_);
   stack_ = new QStackedWidget;
   view_ = new View3D;
   scan_view_ = new View3D;
@@ -108,6 +114,21 @@ ReviewPane::ReviewPane(int number, ReviewSources& sources, QWidget* parent)
     });
 }
 
+bool ReviewPane::fitsInOneLine() const {
+  if (isHidden()) return true;
+  const QMargins margins = layout()->contentsMargins();
+  return choices_->sizeHint().width() <= width() - margins.left() - margins.right();
+}
+
+void ReviewPane::setSecondLine(bool second) {
+  choices_->setBreakBefore(second ? choices_->indexOf(content_) : -1);
+}
+
+void ReviewPane::resizeEvent(QResizeEvent* event) {
+  QFrame::resizeEvent(event);
+  Q_EMIT roomChanged();
+}
+
 void ReviewPane::refresh(std::int64_t campaign) {
   filling_ = true;
   const qlonglong chosen = campaign_->count() > 0 ? campaign_->currentData().toLongLong() : 0;
@@ -117,6 +138,7 @@ void ReviewPane::refresh(std::int64_t campaign) {
   if (at < 0) at = campaign_->findData(QVariant::fromValue<qlonglong>(campaign));
   campaign_->setCurrentIndex(std::max(at, 0));
   campaign_->setVisible(campaign_->count() > 1);
+  Q_EMIT roomChanged();
   fillStates();
   filling_ = false;
 }

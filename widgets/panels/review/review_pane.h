@@ -17,6 +17,7 @@ namespace spindrift::gui {
 
 class ReviewSources;
 class View3D;
+class WrapLayout;
 struct ReviewSource;
 
 /// What a pane can show.
@@ -56,6 +57,10 @@ class ReviewPane : public QFrame {
   /// the range of its scan.
   void setValue(const QString& text);
   [[nodiscard]] QString value() const;
+  /// Whether its choices have room in one line; a hidden pane says yes.
+  [[nodiscard]] bool fitsInOneLine() const;
+  /// What the pane shows is chosen in a second line, so that panes side by side begin at one height.
+  void setSecondLine(bool second);
   [[nodiscard]] const ReviewPicture& picture() const { return picture_; }
   [[nodiscard]] View3D* view() const { return view_; }
   [[nodiscard]] View3D* scanView() const { return scan_view_; }
@@ -65,12 +70,18 @@ class ReviewPane : public QFrame {
 
  Q_SIGNALS:
   void changed();
+  /// The choices take another width, or the pane has another one.
+  void roomChanged();
+
+ protected:
+  void resizeEvent(QResizeEvent* event) override;
 
  private:
   void fillStates();
   void sayWhole(const ReviewPicture& picture);
 
   ReviewSources& sources_;
+  WrapLayout* choices_;
   QComboBox* campaign_;
   QComboBox* state_;
   QComboBox* content_;

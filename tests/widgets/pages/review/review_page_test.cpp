@@ -12,11 +12,14 @@
 #include "core/base/atomic_file.h"
 #include "core/simulation/virtual_profiler.h"
 #include "tests/widgets/support/page_test.h"
+#include "widgets/common/languages.h"
 #include "widgets/common/parts.h"
 #include "widgets/models/rows_model.h"
 #include "widgets/pages/review/review_page.h"
 #include "widgets/panels/review/review_pane.h"
 #include "widgets/plots/plot.h"
+#include "widgets/shell/help_panel.h"
+#include "widgets/theme/theme.h"
 #include "widgets/view3d/view3d.h"
 
 namespace spindrift::gui {
@@ -309,6 +312,47 @@ TEST_F(Review, ScansStandSideBySide) {
   QTest::keyClick(page->pane(1)->scanView(), Qt::Key_Right);
   EXPECT_EQ(page->pane(1)->scanView()->camera(), page->pane(2)->scanView()->camera());
   exportAll();
+}
+
+/// At 1280 x 800 beside the help the choices of one pane had room in one line and those of its neighbour had not.
+TEST_F(Review, PanesSideBySideBeginAtOneHeight) {
+  for (const char* language : {"en", "de"}) {
+    applyLanguage(QLatin1String(language));
+    window_ = std::make_unique<MainWindow>();
+    window_->show();
+    open(writeStates(std::string("aligned_") + language, 1.0));
+    auto* page = go<ReviewPage>(StepId::Review);
+    ASSERT_NE(page, nullptr);
+    page->setPanes(4);
+    for (const auto& [width, help] : {std::pair{1280, true}, std::pair{1280, false}, std::pair{1920, false}}) {
+      window_->resize(width, width == 1280 ? 800 : 1080);
+      if (window_->help()->isVisible() != help) window_->helpAction()->trigger();
+      QTest::qWait(50);
+      ASSERT_TRUE(waitForJobs(*window_, 30));
+      for (int i = 1; i <= 4; ++i) {
+        ReviewPane* pane = page->pane(i);
+        EXPECT_EQ(pane->view()->mapTo(pane, QPoint()).y(), page->pane(1)->view()->mapTo(page->pane(1), QPoint()).y())
+            << language << " pane " << i << " at " << width;
+        const int between = pane->contentChoice()->y() - pane->stateChoice()->y();
+        EXPECT_EQ(between, page->pane(1)->contentChoice()->y() - page->pane(1)->stateChoice()->y());
+      }
+      if (const QString folder = qEnvironmentVariable("SPINDRIFT_PICTURES"); !folder.isEmpty()) {
+        for (const ThemeKind kind : {ThemeKind::Light, ThemeKind::Dark}) {
+          window_->setTheme(kind);
+          QTest::qWait(50);
+          window_->grab().save(folder +
+                               QStringLiteral("/review-%1-%2-%3-%4.png")
+                                   .arg(QLatin1String(language))
+                                   .arg(width)
+                                   .arg(help ? QStringLiteral("help") : QStringLiteral("alone"))
+                                   .arg(kind == ThemeKind::Dark ? QStringLiteral("dark") : QStringLiteral("light")));
+        }
+        window_->setTheme(ThemeKind::Light);
+      }
+    }
+    window_->closeSession();
+  }
+  applyLanguage(QStringLiteral("en"));
 }
 
 }  // namespace
