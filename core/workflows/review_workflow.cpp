@@ -170,6 +170,7 @@ void showPrediction(ReviewPicture& picture, const ObservationSet& observations, 
   }
   const bool left =
       request.quantity == ReviewQuantity::SimulationLeft || request.quantity == ReviewQuantity::CompletedLeft;
+  if (!left) picture.uncertainty = prediction->uncertainty;
   const std::string reference = observations.states().front();
   const PlacedValues now = meansOf(observations, request.state, prediction);
   const PlacedValues cold = request.state == reference ? PlacedValues() : meansOf(observations, reference, prediction);
@@ -246,6 +247,8 @@ ReviewPrediction reviewSimulation(const Campaign& campaign, const ObservationSet
   try {
     out.value = discrepancyInput(campaign, observations).predicted;
     for (const double v : out.value) out.sigma.push_back(campaign.simulation_gain_uncertainty * std::abs(v));
+    out.uncertainty = fmt::format("± is {:g} % of the simulated change, as campaign.json states.",
+                                  100.0 * campaign.simulation_gain_uncertainty);
   } catch (const InputError& error) {
     out.why = error.what();
   }

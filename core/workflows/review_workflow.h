@@ -53,6 +53,7 @@ struct ReviewPrediction {
   std::vector<double> value;
   std::vector<double> sigma;
   std::string why;
+  std::string uncertainty;  ///< what sigma is, one sentence; empty: not known
 };
 /// The simulation that the campaign names.
 [[nodiscard]] ReviewPrediction reviewSimulation(const Campaign& campaign, const ObservationSet& observations);
@@ -80,6 +81,7 @@ struct ReviewPicture {
   std::vector<ReviewPoint> points;
   std::optional<Field> field;  ///< heat map of the component, where there is one
   std::string message;         ///< why there is no heat map; empty if there is or none was asked for
+  std::string uncertainty;     ///< what the stated uncertainties are, where they are not those of the measurement
   double largest = 0.0;        ///< |value| of the component over points and determined nodes
 };
 

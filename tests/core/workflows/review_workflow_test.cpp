@@ -199,13 +199,16 @@ TEST(Review, SimulationAndItsCompletionAreShownAsChanges) {
     half.value.push_back(o.component == Component::EX ? 0.5 * o.value + 7.0 : 0.0);
     half.sigma.push_back(0.1);
   }
+  half.uncertainty = "± is 1 % of the simulated change, as campaign.json states.";
   ReviewRequest request{"M2", ReviewQuantity::Simulation, Component::EX};
   const ReviewPicture simulated = reviewOf(all, table(), request, &half);
   EXPECT_NEAR(simulated.points[2].components.at(Component::EX).value, 2.7, 1e-12);
   EXPECT_NEAR(simulated.points[2].components.at(Component::EX).sigma, 0.1, 1e-12);
+  EXPECT_EQ(simulated.uncertainty, half.uncertainty);
   request.quantity = ReviewQuantity::SimulationLeft;
   const ReviewPicture left = reviewOf(all, table(), request, &half);
   EXPECT_NEAR(left.points[2].components.at(Component::EX).value, 5.4 - 2.7, 1e-12);
+  EXPECT_TRUE(left.uncertainty.empty()) << "that of the measurement";
   EXPECT_NEAR(left.points[2].components.at(Component::EX).sigma, 0.3 * std::sqrt(2.0), 1e-12);
 
   DiscrepancyStory story;
