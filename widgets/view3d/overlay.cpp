@@ -11,6 +11,7 @@
 #include <cmath>
 #include <optional>
 
+#include "core/base/text.h"
 #include "widgets/theme/fonts.h"
 #include "widgets/theme/numbers.h"
 #include "widgets/theme/shown_units.h"
@@ -423,6 +424,38 @@ void paintSurfaceAxes(QPainter& painter, const Camera& camera, const QSizeF& siz
   }
   const QPointF top = at({left.x(), left.y(), reach.z()});
   write(top, top + QPointF(0, 10), shownTitle(surface.value_title), 14, t.text);
+  painter.restore();
+}
+
+QString quantityWithUncertainty(double value, double sigma, const QString& unit) {
+  const ShownUnit shown = shownUnit(unit);
+  return std::isfinite(sigma) ? shownNumbers(QString::fromStdString(withUncertainty(
+                                    shown.shown(value), shown.factor * sigma, shown.name.toStdString())))
+                              : View3D::tr("%1 %2").arg(decimalText(shown.shown(value), 'g', 4), shown.name);
+}
+
+QString surfaceNodeText(const ViewSurface& surface, const QString& unit, std::size_t node) {
+  const auto quantity = [](const QString& title, double value) {  // "Position / mm": "Position 550 mm"
+    const ShownUnit of = unitOfTitle(title);
+    return View3D::tr("%1 %2 %3")
+        .arg(title.section(QStringLiteral(" / "), 0, 0), decimalText(of.shown(value), 'g', 4), of.name);
+  };
+  const double sigma = surface.sigma.size() == surface.value.size() ? surface.sigma[node] : std::nan("");
+  return View3D::tr("%1, %2: %3")
+      .arg(quantity(surface.x_title, surface.x[node % surface.x.size()]),
+           quantity(surface.y_title, surface.y[node / surface.x.size()]),
+           quantityWithUncertainty(surface.value[node], sigma, unit));
+}
+
+void paintCursorRing(QPainter& painter, const QPointF& centre) {
+  constexpr double radius_px = 6.5;
+  painter.save();
+  painter.setRenderHint(QPainter::Antialiasing);
+  painter.setBrush(Qt::NoBrush);
+  painter.setPen(QPen(theme().surface, 5));
+  painter.drawEllipse(centre, radius_px, radius_px);
+  painter.setPen(QPen(theme().tone(Tone::Accent), 2.5));
+  painter.drawEllipse(centre, radius_px, radius_px);
   painter.restore();
 }
 

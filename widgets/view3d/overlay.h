@@ -39,6 +39,12 @@ void paintTableScale(QPainter& painter, const Camera& camera, const QSizeF& size
 /// Numbers and titles along the axes of a surface.
 void paintSurfaceAxes(QPainter& painter, const Camera& camera, const QSizeF& size, const ViewSurface& surface,
                       const SurfaceBox& box, const ColourScale& scale);
+/// "1.2 ± 0.3 µm" in the unit on screen, `unit` that of files; without a finite `sigma` the value alone.
+[[nodiscard]] QString quantityWithUncertainty(double value, double sigma, const QString& unit);
+/// Values of a surface at one node with what it is over: "Position 550 mm, Time 2 h: 1.2 ± 0.3 µm".
+[[nodiscard]] QString surfaceNodeText(const ViewSurface& surface, const QString& unit, std::size_t node);
+/// A ring around a place.
+void paintCursorRing(QPainter& painter, const QPointF& centre);
 /// A line between two places with its length beside it. One place: a mark.
 void paintDistance(QPainter& painter, const QSizeF& size, const std::vector<QPointF>& ends, const QString& text);
 /// Spacing of the table grid, mm: about ten lines on the longer side.

@@ -12,6 +12,7 @@
 #include "core/base/text.h"
 #include "widgets/theme/numbers.h"
 #include "widgets/theme/shown_units.h"
+#include "widgets/view3d/overlay.h"
 #include "widgets/view3d/scene.h"
 #include "widgets/view3d/view3d.h"
 #include "widgets/view3d/view_tools.h"
@@ -149,23 +150,8 @@ QString View3D::textAt(const QPointF& position) const {
   const auto point = std::find_if(points_.begin(), points_.end(), [&](const ViewPoint& p) { return p.id == id; });
   if (!id.isEmpty() && point != points_.end() && !point->value_text.isEmpty())
     return tr("%1: %2").arg(point->label.isEmpty() ? id : point->label, onScreen(point->value_text));
-  const auto quantityOnScreen = [](const ShownUnit& unit, double value, double sigma) {
-    return std::isfinite(sigma) ? shownNumbers(QString::fromStdString(
-                                      withUncertainty(unit.shown(value), unit.factor * sigma, unit.name.toStdString())))
-                                : tr("%1 %2").arg(decimalText(unit.shown(value), 'g', 4), unit.name);
-  };
-  const ShownUnit unit = scale_ ? shownUnit(scale_->unit) : ShownUnit{};
-  if (const auto i = surfaceNodeAt(position)) {
-    const ViewSurface& s = *surface_;
-    const auto quantity = [](const QString& title, double value) {  // "Position / mm": "Position 550 mm"
-      const ShownUnit of = unitOfTitle(title);
-      return tr("%1 %2 %3")
-          .arg(title.section(QStringLiteral(" / "), 0, 0), decimalText(of.shown(value), 'g', 4), of.name);
-    };
-    return tr("%1, %2: %3")
-        .arg(quantity(s.x_title, s.x[*i % s.x.size()]), quantity(s.y_title, s.y[*i / s.x.size()]),
-             quantityOnScreen(unit, s.value[*i], s.sigma.size() == s.value.size() ? s.sigma[*i] : std::nan("")));
-  }
+  const QString unit = scale_ ? scale_->unit : QString();
+  if (const auto i = surfaceNodeAt(position)) return surfaceNodeText(*surface_, unit, *i);
   if (const auto probe = probeAt(position)) {
     const FieldGrid& grid = field_->grid;
     const QString place = tr("%1 %2 mm, %3 %4 mm: %5")
@@ -186,7 +172,7 @@ QString View3D::textAt(const QPointF& position) const {
                    .arg(decimalText(p[0], 'f', 2), decimalText(p[1], 'f', 2), decimalText(p[2], 'f', 3)));
   if (cloud_.scalar == nullptr) return place;
   const double sigma = cloud_.sigma == nullptr ? std::nan("") : static_cast<double>((*cloud_.sigma)[*i]);
-  return tr("%1: %2").arg(place, quantityOnScreen(unit, static_cast<double>((*cloud_.scalar)[*i]), sigma));
+  return tr("%1: %2").arg(place, quantityWithUncertainty(static_cast<double>((*cloud_.scalar)[*i]), sigma, unit));
 }
 
 void View3D::mousePressEvent(QMouseEvent* event) {

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "widgets/plots/plot.h"
+#include "widgets/plots/surface_plot.h"
 
 #include <gtest/gtest.h>
 
 #include <QCoreApplication>
 #include <QFile>
+#include <QFocusEvent>
 #include <QImage>
 #include <QKeyEvent>
 #include <QMouseEvent>
@@ -114,6 +116,56 @@ TEST(Plot, IsReadAndMovedByKeyboardAlone) {
   press(Qt::Key_Right);
   plot.setContent({ramp()});
   EXPECT_FALSE(plot.cursor().has_value()) << "what is new has no value at hand";
+}
+
+TEST(SurfacePlotTest, IsReadByKeyboardAlone) {
+  SurfacePlot plot;
+  plot.resize(640, 480);
+  ViewSurface surface;
+  surface.x = {150, 550, 1350};
+  surface.y = {0, 30, 90};
+  surface.x_title = QStringLiteral("Position / mm");
+  surface.y_title = QStringLiteral("Time / min");
+  surface.value_title = QStringLiteral("EXY / um");
+  surface.value = {std::nan(""), 1, 0, 4, -6, 8, 9, std::nan(""), -12};
+  surface.sigma = {0, 0.5, 0.5, 2, 2, 2, 2, 2, 2};
+  plot.setData(surface, ColourScale::symmetric(12, QStringLiteral("EXY"), QStringLiteral("um")));
+  plot.show();
+  const QString described = plot.accessibleDescription();
+  QSignalSpy told(&plot, &View3D::hovered);
+  EXPECT_TRUE(plot.focusPolicy() & Qt::TabFocus);
+  const QImage without = plot.grab().toImage();
+  const auto press = [&plot](int key, Qt::KeyboardModifiers with = Qt::NoModifier) {
+    QKeyEvent event(QEvent::KeyPress, key, with);
+    QCoreApplication::sendEvent(&plot, &event);
+    return event.isAccepted();
+  };
+  press(Qt::Key_N);
+  EXPECT_EQ(plot.cursor(), surface.index(1, 0)) << "the first with a value";
+  press(Qt::Key_N, Qt::ShiftModifier);
+  EXPECT_EQ(plot.cursor(), surface.index(1, 1));
+  EXPECT_EQ(plot.accessibleDescription().toStdString(), "Position 550 mm, Time 30 min: −6.0 ± 2.0 µm");
+  EXPECT_EQ(told.back().at(0).toString(), plot.accessibleDescription());
+  EXPECT_NE(plot.grab().toImage(), without) << "a ring";
+  press(Qt::Key_N, Qt::ShiftModifier);
+  EXPECT_EQ(plot.cursor(), surface.index(1, 1)) << "the next row has no value here";
+  press(Qt::Key_B);
+  press(Qt::Key_N, Qt::ShiftModifier);
+  press(Qt::Key_N);
+  EXPECT_EQ(plot.cursor(), surface.index(2, 2)) << "past the node without a value";
+  if (qEnvironmentVariableIsSet("SPINDRIFT_KEEP_PICTURES"))
+    plot.grab().save(qEnvironmentVariable("SPINDRIFT_KEEP_PICTURES") + QStringLiteral("/surface_cursor.png"));
+  EXPECT_TRUE(press(Qt::Key_Left)) << "turns, as in every view";
+  EXPECT_EQ(plot.cursor(), surface.index(2, 2));
+  EXPECT_TRUE(press(Qt::Key_Escape));
+  EXPECT_FALSE(plot.cursor().has_value());
+  EXPECT_EQ(plot.accessibleDescription(), described);
+  EXPECT_TRUE(told.back().at(0).toString().isEmpty());
+  QFocusEvent by_tab(QEvent::FocusIn, Qt::TabFocusReason);
+  QCoreApplication::sendEvent(&plot, &by_tab);
+  EXPECT_TRUE(plot.cursor().has_value()) << "whoever comes by keyboard sees where the keys work";
+  plot.setData(surface, ColourScale::symmetric(12, QStringLiteral("EXY"), QStringLiteral("um")));
+  EXPECT_FALSE(plot.cursor().has_value()) << "what is new has no node at hand";
 }
 
 /// A title in two lines and fewer numbers where there is less room.
