@@ -30,4 +30,8 @@ QString shownName(const std::string& name) {
   return of_demo ? QCoreApplication::translate("DemoNames", name.c_str()) : QString::fromStdString(name);
 }
 
+std::string keptName(const QString& typed, const std::string& kept) {
+  return typed == shownName(kept) ? kept : typed.toStdString();
+}
+
 }  // namespace spindrift::gui

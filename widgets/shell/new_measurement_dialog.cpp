@@ -14,6 +14,7 @@
 #include "core/base/error.h"
 #include "core/machine/machine_description.h"
 #include "widgets/common/core_sentence.h"
+#include "widgets/common/demo_names.h"
 #include "widgets/common/parts.h"
 
 static void loadScenarios() {
@@ -114,7 +115,7 @@ void NewMeasurementDialog::takeFile(const QString& file) {
   try {
     const MachineDescription machine = MachineDescription::read(file.toStdString());
     problem_->set(Tone::Neutral, {});
-    add({tr("%1 (from a file)").arg(QString::fromStdString(machine.name)), file, machine.source});
+    add({tr("%1 (from a file)").arg(shownName(machine.name)), file, machine.source});
     choices_->setCurrentRow(choices_->count() - 1);
   } catch (const InputError& e) {
     problem_->show(Tone::Bad, coreSentence(e.what()));

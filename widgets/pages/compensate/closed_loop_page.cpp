@@ -10,6 +10,7 @@
 #include <cmath>
 
 #include "widgets/common/core_sentence.h"
+#include "widgets/common/demo_names.h"
 #include "widgets/common/parts.h"
 #include "widgets/common/words.h"
 #include "widgets/models/cells.h"
@@ -211,7 +212,7 @@ void ClosedLoopPage::refresh() {
         tr("A plan (JSON, spindrift-loop-plan) says which control, what is touched, which program runs and when."));
   } else {
     plan_->setText(tr("%1 at %2:%3 · plan %4 · campaign in %5")
-                       .arg(fromCore(plan->machine.name), fromCore(plan->control.shell.peer.host))
+                       .arg(shownName(plan->machine.name), fromCore(plan->control.shell.peer.host))
                        .arg(plan->control.shell.peer.port)
                        .arg(service_.planFile(), service_.folder()));
   }

@@ -205,7 +205,7 @@ void MachinePage::refresh() {
   if (campaign == nullptr) return;
   const MachineDescription& machine = campaign->machine;
   filling_ = true;
-  name_->setText(QString::fromStdString(machine.name));
+  name_->setText(shownName(machine.name));
   chain_->setText(QString::fromStdString(machine.chain.text()));
   axes_->setRowCount(static_cast<int>(machine.axes.size()));
   for (int row = 0; row < axes_->rowCount(); ++row) {
@@ -415,7 +415,7 @@ void MachinePage::showTyped(const nlohmann::json& typed) {
 
 nlohmann::json MachinePage::edited() const {
   nlohmann::json machine = session().campaign()->machine.source;
-  machine["name"] = name_->text().toStdString();
+  machine["name"] = keptName(name_->text(), session().campaign()->machine.name);
   machine["chain"] = chain_->text().toStdString();
   const auto setOrErase = [](nlohmann::json& object, const char* key, const QString& text, bool number) {
     if (text.isEmpty()) {

@@ -2,6 +2,7 @@
 #include "widgets/pages/plant/plant_page.h"
 
 #include <QComboBox>
+#include <QCoreApplication>
 #include <QFileDialog>
 #include <QFileInfo>
 #include <QHBoxLayout>
@@ -31,9 +32,11 @@
 #include "core/connect/utc_time.h"
 #include "core/plant/publish.h"
 #include "widgets/common/core_sentence.h"
+#include "widgets/common/demo_names.h"
 #include "widgets/common/help_text.h"
 #include "widgets/common/parts.h"
 #include "widgets/common/words.h"
+#include "widgets/export/exportable.h"
 #include "widgets/models/rows_model.h"
 #include "widgets/panels/plant/batches_panel.h"
 #include "widgets/panels/plant/plant_parts.h"
@@ -53,6 +56,19 @@ double now() {
 
 QString day(double time_s) {
   return time_s > 0.0 ? text(utcText(time_s).substr(0, 10)) : QStringLiteral("–");
+}
+
+/// Kinds of results as the store has them.
+constexpr std::array kinds{QT_TRANSLATE_NOOP("PlantKinds", "fit"), QT_TRANSLATE_NOOP("PlantKinds", "evaluate"),
+                           QT_TRANSLATE_NOOP("PlantKinds", "thermal"), QT_TRANSLATE_NOOP("PlantKinds", "discrepancy"),
+                           QT_TRANSLATE_NOOP("PlantKinds", "verify")};
+
+/// "fit/EX_um" with the kind in the language of the window.
+QString shownTrend(const QString& key) {
+  const QString kind = key.section(QLatin1Char('/'), 0, 0);
+  const bool known =
+      std::any_of(kinds.begin(), kinds.end(), [&](const char* one) { return kind == QLatin1String(one); });
+  return known ? QCoreApplication::translate("PlantKinds", kind.toUtf8().constData()) + key.mid(kind.size()) : key;
 }
 
 Tone toneOf(const std::string& verdict) {
@@ -135,7 +151,9 @@ PlantPage::PlantPage(SessionModel& session, JobRunner& jobs, QWidget* parent)
   list->addToTitle(report_);
   connect(report_, &QPushButton::clicked, this, [this] {
     const QString file = QFileDialog::getSaveFileName(
-        this, tr("Report of the machine"), chosenMachines().value(0) + QStringLiteral(".html"), tr("Report (*.html)"));
+        this, tr("Report of the machine"),
+        fileNameOf(shownName(chosenMachines().value(0).toStdString())) + QStringLiteral(".html"),
+        tr("Report (*.html)"));
     if (!file.isEmpty()) writeReport(file);
   });
   connect(machine_table_->selectionModel(), &QItemSelectionModel::selectionChanged, this, [this] {
@@ -279,7 +297,7 @@ void PlantPage::showMachines() {
               due ? Tone::Attention : Tone::Neutral, due ? "clock" : nullptr};
     next.tip = coreSentence(m.dueSentence());
     rows.push_back({text(m.machine.name),
-                    {{text(m.machine.name), Tone::Neutral, nullptr, false, true},
+                    {{shownName(m.machine.name), Tone::Neutral, nullptr, false, true},
                      next,
                      holds,
                      {day(m.machine.last_s)},
@@ -343,7 +361,7 @@ QStringList PlantPage::chosenMachines() const {
 }
 
 void PlantPage::showParameters() {
-  const QString before = parameter_->currentText();
+  const QString before = parameter_->currentData().toString();
   const QStringList chosen = chosenMachines();
   std::set<QString> names;
   QString most;
@@ -362,9 +380,9 @@ void PlantPage::showParameters() {
   {
     const QSignalBlocker quiet(parameter_);
     parameter_->clear();
-    for (const QString& name : names) parameter_->addItem(name);
-    const int again = parameter_->findText(before);
-    parameter_->setCurrentIndex(again >= 0 ? again : parameter_->findText(most));
+    for (const QString& name : names) parameter_->addItem(shownTrend(name), name);
+    const int again = parameter_->findData(before);
+    parameter_->setCurrentIndex(again >= 0 ? again : parameter_->findData(most));
   }
   parameter_->setEnabled(!names.empty());
   showTrends();
@@ -372,7 +390,7 @@ void PlantPage::showParameters() {
 
 void PlantPage::showTrends() {
   const QStringList chosen = chosenMachines();
-  const std::string name = parameter_->currentText().toStdString();
+  const std::string name = parameter_->currentData().toString().toStdString();
   if (chosen.isEmpty() || name.empty()) {
     plot_->setContent({});
     said_->clear();
@@ -405,7 +423,8 @@ void PlantPage::showTrends() {
         const bool alone = trends.size() == 1;
         for (std::size_t i = 0; i < trends.size(); ++i) {
           const MachineTrend& t = trends[i];
-          Series measured{text(alone ? t.name : t.machine), {}, {}, {}, SeriesStyle::Points, static_cast<int>(i)};
+          Series measured{
+              alone ? text(t.name) : shownName(t.machine), {}, {}, {}, SeriesStyle::Points, static_cast<int>(i)};
           // A stretch of its own for each level: limits begin anew after an event that changes the machine.
           std::vector<Series> limits;
           double centre = std::nan("");
@@ -433,7 +452,7 @@ void PlantPage::showTrends() {
           for (Series& s : limits) series.push_back(std::move(s));
           for (const NamedChange& c : t.chart.changes)
             sentences << (alone ? sentenceStart(coreSentence(c.sentence(t.chart.unit)))
-                                : text(t.machine) + QStringLiteral(": ") + coreSentence(c.sentence(t.chart.unit)));
+                                : shownName(t.machine) + QStringLiteral(": ") + coreSentence(c.sentence(t.chart.unit)));
           if (alone) {
             for (const std::string& note : t.chart.notes) sentences << coreSentence(note);
           }
@@ -456,7 +475,8 @@ void PlantPage::showTrends() {
           for (const MachineEvent& e : t.events) {
             if (!alone && !changesMachine(e.kind)) continue;
             const QString what = coreSentence(eventWords(e.kind));
-            plot_->addMark((e.time_s - first_s) / day_s, alone ? what : text(t.machine) + QStringLiteral(": ") + what,
+            plot_->addMark((e.time_s - first_s) / day_s,
+                           alone ? what : shownName(t.machine) + QStringLiteral(": ") + what,
                            changesMachine(e.kind) ? Tone::Attention : Tone::Neutral);
           }
         }
@@ -479,8 +499,8 @@ void PlantPage::showCampaigns() {
     box.checked = checked;
     rows.push_back({QString::number(c->id),
                     {box,
-                     {text(c->machine)},
-                     {text(c->name)},
+                     {shownName(c->machine)},
+                     {shownName(c->name)},
                      {day(c->start_s)},
                      {coreSentence(c->verdict.empty() ? "–" : c->verdict), toneOf(c->verdict)},
                      {text(c->publisher)}}});
@@ -503,7 +523,8 @@ void PlantPage::compareChecked() {
       },
       [this](const CampaignComparison& c) {
         QStringList headers{tr("Parameter"), tr("State")};
-        for (const PlantCampaign& one : c.campaigns) headers << text(one.machine + ", " + one.name);
+        for (const PlantCampaign& one : c.campaigns)
+          headers << shownName(one.machine) + QStringLiteral(", ") + shownName(one.name);
         headers << tr("Largest difference");
         std::vector<Row> rows;
         for (const CampaignComparison::ComparedRow& r : c.rows) {
@@ -549,7 +570,8 @@ void PlantPage::enterEvent() {
       },
       [this, kind = event_kind_->currentText()](const MachineEvent& entered) {
         event_note_->clear();
-        notice_ = {Tone::Good, tr("Entered for %1: %2 on %3.").arg(text(entered.machine), kind, day(entered.time_s))};
+        notice_ = {Tone::Good,
+                   tr("Entered for %1: %2 on %3.").arg(shownName(entered.machine), kind, day(entered.time_s))};
         refresh();
       });
   job.failed = [this](const QString& sentence) { fail(sentence); };
@@ -560,7 +582,7 @@ void PlantPage::writeReport(const QString& file) {
   if (chosenMachines().isEmpty()) return;
   const PlantAddress address = PlantAddress::parse(addressText().toStdString());
   Job job;
-  job.title = tr("Writing the report of %1").arg(chosenMachines().front());
+  job.title = tr("Writing the report of %1").arg(shownName(chosenMachines().front().toStdString()));
   job.work = [this, address, machine = chosenMachines().front().toStdString(),
               file](JobContext&) -> std::function<void()> {
     PlantStore store = PlantStore::open(address, {.as = PlantRole::Reader});

@@ -25,6 +25,7 @@
 #include "core/tasks/task_options.h"
 #include "widgets/commands/commands.h"
 #include "widgets/common/core_sentence.h"
+#include "widgets/common/demo_names.h"
 #include "widgets/common/languages.h"
 #include "widgets/common/parts.h"
 #include "widgets/common/report_files.h"
@@ -278,11 +279,14 @@ void ReportPage::openInBrowser() {
   }
 }
 
+QString ReportPage::proposedName() const {
+  return fileNameOf(tr("%1-report", "name of a file").arg(shownName(session().campaign()->name)));
+}
+
 void ReportPage::askAndSave(const QString& ending, const QString& filter) {
-  const QString name = fileNameOf(QString::fromStdString(session().campaign()->name)) + QStringLiteral("-report.");
   const QString folder = QStandardPaths::writableLocation(QStandardPaths::DocumentsLocation);
-  QString chosen =
-      QFileDialog::getSaveFileName(this, tr("Save the report"), folder + QLatin1Char('/') + name + ending, filter);
+  QString chosen = QFileDialog::getSaveFileName(
+      this, tr("Save the report"), folder + QLatin1Char('/') + proposedName() + QLatin1Char('.') + ending, filter);
   if (chosen.isEmpty()) return;
   if (!chosen.endsWith(QLatin1Char('.') + ending, Qt::CaseInsensitive)) chosen += QLatin1Char('.') + ending;
   saveTo(chosen);

@@ -46,6 +46,8 @@ class ReportPage : public Page {
   [[nodiscard]] std::filesystem::path pdf() { return storedFile("pdf"); }
   /// Saves a copy by the ending, .pdf or .html, in the background, and says so when it is there.
   void saveTo(const QString& file);
+  /// The name of a saved report in the language of the window, without its ending.
+  [[nodiscard]] QString proposedName() const;
 
  private:
   void write();

@@ -145,6 +145,51 @@ class PlantPageTest : public ::testing::Test {
   std::unique_ptr<MainWindow> window_;
 };
 
+TEST_F(PlantPageTest, ShowsTheMachinesOfTheDemosInTheLanguageOfTheWindow) {
+  {
+    PlantStore store = PlantStore::open(PlantAddress::parse(store_.toStdString()));
+    PlantCampaign c;
+    c.machine = "vertical machining centre";
+    c.name = "vertical machining centre, simulation with a gap";
+    c.start_s = now() - week_s;
+    c.fingerprint = "demo";
+    c.program_version = SPINDRIFT_VERSION;
+    c.publisher = "anna@bench";
+    PlantResult r;
+    r.kind = "fit";
+    r.program_version = SPINDRIFT_VERSION;
+    r.inputs_fingerprint = c.fingerprint;
+    r.verdict = "converged";
+    r.parameters.push_back({"M1", "EX_um", 8.0, 0.4});
+    c.results.push_back(r);
+    (void)store.publish(std::vector<PlantCampaign>{c});
+  }
+  applyLanguage(QStringLiteral("de"));
+  window_ = std::make_unique<MainWindow>();
+  window_->resize(1280, 800);
+  window_->show();
+  window_->openPlant();
+  PlantPage* page = window_->plant();
+  page->openStore(store_);
+  wait();
+  page->selectMachines({QStringLiteral("vertical machining centre")});
+  wait();
+  const auto shows = [](const QAbstractItemModel* model, const QString& text) {
+    for (int row = 0; row < model->rowCount(); ++row)
+      for (int column = 0; column < model->columnCount(); ++column)
+        if (model->index(row, column).data().toString() == text) return true;
+    return false;
+  };
+  EXPECT_TRUE(shows(page->machines()->model(), QStringLiteral("vertikales Bearbeitungszentrum")));
+  EXPECT_FALSE(shows(page->machines()->model(), QStringLiteral("vertical machining centre")));
+  EXPECT_TRUE(shows(page->machines()->model(), QStringLiteral("gantry north"))) << "what people wrote stays";
+  EXPECT_FALSE(shows(page->campaigns()->model(), QStringLiteral("vertical machining centre, simulation with a gap")));
+  EXPECT_EQ(page->parameter()->currentData().toString(), QStringLiteral("fit/EX_um"));
+  EXPECT_NE(page->parameter()->currentText(), QStringLiteral("fit/EX_um"));
+  keep(QStringLiteral("plant-german"));
+  applyLanguage(QStringLiteral("en"));
+}
+
 TEST_F(PlantPageTest, ShowsMachinesTrendsAndBatchesWithoutASession) {
   window_->openPlant();
   PlantPage* page = window_->plant();

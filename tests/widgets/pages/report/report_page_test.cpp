@@ -198,6 +198,16 @@ class GermanReportPageTest : public ReportPageTest {
   [[nodiscard]] QString firstSection() const { return page_->document()->sections().front().title; }
 };
 
+TEST_F(GermanReportPageTest, ProposesANameInTheLanguageOfTheWindow) {
+  const std::filesystem::path campaign = writeStoryCampaign(folder_, Hidden::SpindleGrowth);
+  nlohmann::json file = nlohmann::json::parse(readFile(campaign / "campaign.json"));
+  file["name"] = "vertical machining centre, simulation with a gap";
+  writeFileAtomically(campaign / "campaign.json", file.dump());
+  open(campaign, StepId::Report);
+  EXPECT_EQ(page<ReportPage>()->proposedName(),
+            QString::fromUtf8("vertikales-bearbeitungszentrum-simulation-mit-lücke-bericht"));
+}
+
 /// Both are written at once: which is shown, printed and saved is the reader's choice and outdates nothing.
 TEST_F(GermanReportPageTest, ShowsTheReportInEitherLanguage) {
   writeReport();
