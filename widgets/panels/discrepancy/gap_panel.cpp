@@ -47,6 +47,7 @@ GapPanel::GapPanel(QWidget* parent) : QWidget(parent) {
   line->setContentsMargins(0, 8, 0, 0);
   line->setSpacing(4);
   auto* left = new SideCard(tr("How large the gap is"));
+  figures_ = left;
   bars_ = new GapBars;
   left->body()->addWidget(bars_);
   model_ = makeLabel({}, "secondaryText");
@@ -64,6 +65,8 @@ GapPanel::GapPanel(QWidget* parent) : QWidget(parent) {
   left->body()->addLayout(choice);
   what_ = new Segments({tr("Over time"), tr("On the machine")}, tr("What is compared"));
   left->body()->addWidget(what_);
+  sides_ = new Segments({tr("Before"), tr("After")}, tr("Which side is shown"));
+  left->body()->addWidget(sides_);
   story_text_ = makeLabel({}, "secondaryText");
   story_text_->setWordWrap(true);
   left->body()->addWidget(story_text_);
@@ -120,7 +123,7 @@ GapPanel::GapPanel(QWidget* parent) : QWidget(parent) {
     userChose();
   });
   connect(point_, &QComboBox::activated, this, [this](int) { userChose(); });
-  connect(what_, &Segments::chosen, this, [this](int) { arrange(); });
+  for (Segments* choice_of : {what_, sides_}) connect(choice_of, &Segments::chosen, this, [this](int) { arrange(); });
   arrange();
 }
 
@@ -140,10 +143,27 @@ void GapPanel::arrange() {
   story_text_->setVisible(both);
   grid_->setRowStretch(0, both || what_->current() == 0 ? 1 : 0);
   grid_->setRowStretch(1, both || what_->current() == 1 ? 1 : 0);
-  for (std::size_t i = 0; i < 2; ++i) {
-    plot_cards_[i]->setVisible(both || what_->current() == 0);
-    view_cards_[i]->setVisible(both || what_->current() == 1);
+  const bool both_sides = width() >= widthOf(2);
+  sides_->setVisible(!both_sides);
+  for (int i = 0; i < 2; ++i) {
+    const bool side = both_sides || sides_->current() == i;
+    const auto at = static_cast<std::size_t>(i);
+    plot_cards_[at]->setVisible(side && (both || what_->current() == 0));
+    view_cards_[at]->setVisible(side && (both || what_->current() == 1));
+    grid_->setColumnStretch(i, side ? 1 : 0);
   }
+}
+
+int GapPanel::widthOf(int sides) const {
+  std::array<int, 2> least{};
+  for (std::size_t i = 0; i < 2; ++i)
+    least[i] = std::max(plot_cards_[i]->minimumSizeHint().width(), view_cards_[i]->minimumSizeHint().width());
+  const int beside = figures_->sizeHint().width() + layout()->spacing();
+  return beside + (sides == 2 ? least[0] + grid_->spacing() + least[1] : std::max(least[0], least[1]));
+}
+
+QSize GapPanel::minimumSizeHint() const {
+  return {widthOf(1), QWidget::minimumSizeHint().height()};
 }
 
 void GapPanel::fillChoices() {

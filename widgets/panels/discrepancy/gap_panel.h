@@ -42,6 +42,10 @@ class GapPanel : public QWidget {
   [[nodiscard]] QSlider* moment() const { return moment_; }
   [[nodiscard]] GapBars* bars() const { return bars_; }
   [[nodiscard]] Plot* plot(bool after) const { return plots_[after ? 1 : 0]; }
+  /// Before or after, where there is no room for both side by side.
+  [[nodiscard]] Segments* sides() const { return sides_; }
+  /// One side beside the figures; both where there is room.
+  [[nodiscard]] QSize minimumSizeHint() const override;
 
  Q_SIGNALS:
   void hovered(const QString& text);
@@ -60,6 +64,8 @@ class GapPanel : public QWidget {
   void showPlots();
   void showViews();
   void arrange();
+  /// Of the figures and so many of the two sides beside one another, px.
+  [[nodiscard]] int widthOf(int sides) const;
   void userChose();
   void markMoment();
   void showSide(std::size_t side, Component component, const ResidualMap& map);
@@ -77,7 +83,9 @@ class GapPanel : public QWidget {
   QLabel* story_text_;
   QComboBox* component_;
   QComboBox* point_;
+  QWidget* figures_;
   Segments* what_;
+  Segments* sides_;
   QLabel* moment_text_;
   QSlider* moment_;
   QGridLayout* grid_;

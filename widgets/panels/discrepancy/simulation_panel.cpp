@@ -25,6 +25,7 @@
 #include "widgets/common/page_room.h"
 #include "widgets/common/parts.h"
 #include "widgets/common/words.h"
+#include "widgets/common/wrap_layout.h"
 #include "widgets/jobs/task_job.h"
 #include "widgets/jobs/task_run.h"
 #include "widgets/models/cells.h"
@@ -54,7 +55,12 @@ SimulationPanel::SimulationPanel(PageContext context, QWidget* parent) : QWidget
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(0, 8, 0, 0);
   column->setSpacing(8);
-  head_ = new Card(tr("Simulator"));
+  head_ = new Card;
+  auto* line = new WrapLayout;
+  title_ = makeLabel(tr("Simulator"), "sectionTitle");
+  title_->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Preferred);
+  line->addWidget(title_);
+  head_->body()->addLayout(line);
   runs_ = new WrappedLabel;
   runs_->setProperty("role", QStringLiteral("secondaryText"));
   head_->body()->addWidget(runs_);
@@ -64,8 +70,8 @@ SimulationPanel::SimulationPanel(PageContext context, QWidget* parent) : QWidget
   search_->setToolTip(tr("Run the simulator and look for what is missing among its parameters as well"));
   put_ = makeButton(tr("Put it into the simulation …"), nullptr, "primary");
   views_ = new Segments({tr("Parameters"), tr("Over time"), tr("Over the table")}, tr("What is shown"));
-  head_->addToTitle(views_);
-  for (QPushButton* button : {choose_, search_, put_}) head_->addToTitle(button);
+  line->addWidget(views_);
+  for (QPushButton* button : {choose_, search_, put_}) line->addWidget(button);
   column->addWidget(head_);
   callout_ = new Callout;
   column->addWidget(callout_);
@@ -369,7 +375,7 @@ QString SimulationPanel::told(std::string sentence) const {
 
 void SimulationPanel::showHead() {
   const QString file = fromCore(simulator_);
-  head_->setTitle(simulator_.empty() ? tr("No simulator") : fromCore(fs::path(simulator_).filename().string()));
+  title_->setText(simulator_.empty() ? tr("No simulator") : fromCore(fs::path(simulator_).filename().string()));
   head_->setToolTip(file);
   runs_->setText(simulator_.empty()
                      ? tr("campaign.json names no simulation that can be run (\"simulator\": \"simulator.json\"). "

@@ -105,6 +105,7 @@ class SimulationPanel : public QWidget {
 
   PageContext context_;
   Card* head_;
+  QLabel* title_;
   WrappedLabel* runs_;
   QPushButton* choose_;
   QPushButton* search_;

@@ -29,6 +29,7 @@
 #include "widgets/panels/discrepancy/what_panel.h"
 #include "widgets/panels/discrepancy/where_panel.h"
 #include "widgets/plots/plot.h"
+#include "widgets/shell/help_panel.h"
 #include "widgets/shell/tour.h"
 #include "widgets/view3d/view3d.h"
 
@@ -425,6 +426,33 @@ TEST_F(DiscrepancyPageTest, ExportsPicturesAndTables) {
     item.write(file);
     EXPECT_GT(QFileInfo(file).size(), 20) << file.toStdString();
   }
+}
+
+TEST_F(DiscrepancyPageTest, ShowsOneSideOfTheGapWhereBothHaveNoRoom) {
+  search(Hidden::SpindleGrowth);
+  QTest::mouseClick(page_->addButton(), Qt::LeftButton);
+  wait();
+  GapPanel* gap = page_->gap();
+  page_->tabs()->setCurrentWidget(gap);
+  window_->resize(1920, 1080);
+  QTest::qWait(50);
+  EXPECT_FALSE(gap->sides()->isVisible());
+  EXPECT_TRUE(gap->plot(false)->isVisible());
+  EXPECT_TRUE(gap->plot(true)->isVisible());
+  window_->resize(1280, 800);
+  if (!window_->help()->isVisible()) window_->helpAction()->trigger();
+  QTest::qWait(50);
+  ASSERT_TRUE(gap->sides()->isVisible());
+  EXPECT_LE(gap->minimumSizeHint().width(), gap->width());
+  for (const int side : {0, 1}) {
+    gap->sides()->setCurrent(side);
+    Q_EMIT gap->sides()->chosen(side);
+    QTest::qWait(20);
+    EXPECT_EQ(gap->plot(false)->isVisible() || gap->view(false)->isVisible(), side == 0);
+    EXPECT_EQ(gap->plot(true)->isVisible() || gap->view(true)->isVisible(), side == 1);
+  }
+  if (const QString folder = qEnvironmentVariable("SPINDRIFT_PICTURES"); !folder.isEmpty())
+    window_->grab().save(folder + QStringLiteral("/gap_one_side.png"));
 }
 
 TEST(GapPanelTest, ShowsWhatWasMeasuredAtOneAngleOfTheTable) {
