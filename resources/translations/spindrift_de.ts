@@ -380,6 +380,29 @@
     </message>
 </context>
 <context>
+    <name>PlantKinds</name>
+    <message>
+        <source>fit</source>
+        <translation>Anpassung</translation>
+    </message>
+    <message>
+        <source>evaluate</source>
+        <translation>Auswertung</translation>
+    </message>
+    <message>
+        <source>thermal</source>
+        <translation>thermisch</translation>
+    </message>
+    <message>
+        <source>discrepancy</source>
+        <translation>Abweichung</translation>
+    </message>
+    <message>
+        <source>verify</source>
+        <translation>Überprüfung</translation>
+    </message>
+</context>
+<context>
     <name>Print</name>
     <message>
         <source>Nothing can be printed to &quot;%1&quot;.</source>
@@ -536,6 +559,13 @@
     <message>
         <source>Browse …</source>
         <translation>Durchsuchen …</translation>
+    </message>
+</context>
+<context>
+    <name>TableAngle</name>
+    <message>
+        <source>%1, table at %2°</source>
+        <translation>%1, Tisch bei %2°</translation>
     </message>
 </context>
 <context>
@@ -11786,6 +11816,10 @@ endgültig fehlgeschlagen: {}</translation>
         <source>{}, table at {:g}°</source>
         <translation>{}, Tisch bei {:g}°</translation>
     </message>
+    <message>
+        <source>± is {:g} % of the simulated change, as campaign.json states.</source>
+        <translation>± ist {:g} % der simulierten Änderung, wie campaign.json angibt.</translation>
+    </message>
 </context>
 <context>
     <name>files</name>
@@ -20127,6 +20161,14 @@ ihrem Ordner und führen nicht hinaus.
         <source>After on the machine %1</source>
         <translation>Nachher an der Maschine %1</translation>
     </message>
+    <message>
+        <source>Before</source>
+        <translation>Vorher</translation>
+    </message>
+    <message>
+        <source>Which side is shown</source>
+        <translation>Welche Seite gezeigt wird</translation>
+    </message>
 </context>
 <context>
     <name>spindrift::gui::HelpPanel</name>
@@ -23931,6 +23973,11 @@ ihrem Ordner und führen nicht hinaus.
         <source>This report was written in English only.</source>
         <translation>Dieser Bericht wurde nur auf Englisch geschrieben.</translation>
     </message>
+    <message>
+        <source>%1-report</source>
+        <comment>name of a file</comment>
+        <translation>%1-Bericht</translation>
+    </message>
 </context>
 <context>
     <name>spindrift::gui::ReportPages</name>
@@ -24714,10 +24761,6 @@ ihrem Ordner und führen nicht hinaus.
         <translation>Nachher: größte %1</translation>
     </message>
     <message>
-        <source>%1, measured − simulation at %2 %3</source>
-        <translation>%1, gemessen − Simulation bei %2 %3</translation>
-    </message>
-    <message>
         <source>Initial simulation over the table</source>
         <translation>Ursprüngliche Simulation über dem Tisch</translation>
     </message>
@@ -24728,6 +24771,14 @@ ihrem Ordner und führen nicht hinaus.
     <message>
         <source>The map is being worked out.</source>
         <translation>Die Karte wird berechnet.</translation>
+    </message>
+    <message>
+        <source>%1 %2</source>
+        <translation>%1 %2</translation>
+    </message>
+    <message>
+        <source>%1, measured − simulation at %2</source>
+        <translation>%1, gemessen − Simulation bei %2</translation>
     </message>
 </context>
 <context>
@@ -26226,10 +26277,6 @@ ihrem Ordner und führen nicht hinaus.
         <source>After: %1 in %2</source>
         <translation>Nachher: %1 in %2</translation>
     </message>
-    <message>
-        <source>%1, table at %2°</source>
-        <translation>%1, Tisch bei %2°</translation>
-    </message>
 </context>
 <context>
     <name>spindrift::gui::VerifyPage</name>
@@ -26471,6 +26518,18 @@ ihrem Ordner und führen nicht hinaus.
     <message>
         <source>Reading the points</source>
         <translation>Punkte werden gelesen</translation>
+    </message>
+    <message>
+        <source>Angle of the table at which the values were measured</source>
+        <translation>Winkel des Tisches, bei dem die Werte gemessen wurden</translation>
+    </message>
+    <message>
+        <source>Table at its worst angle</source>
+        <translation>Tisch beim ungünstigsten Winkel</translation>
+    </message>
+    <message>
+        <source>Table at %1°</source>
+        <translation>Tisch bei %1°</translation>
     </message>
 </context>
 <context>
