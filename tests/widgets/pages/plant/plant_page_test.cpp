@@ -47,6 +47,28 @@ double now() {
 
 constexpr double week_s = 604'800.0;
 
+/// A campaign that began so long ago.
+PlantCampaign campaignOf(const std::string& machine, const std::string& name, double ago_s) {
+  PlantCampaign c;
+  c.machine = machine;
+  c.name = name;
+  c.start_s = now() - ago_s;
+  c.fingerprint = machine + name;
+  c.program_version = SPINDRIFT_VERSION;
+  c.publisher = "anna@bench";
+  return c;
+}
+
+/// A fit of it that converged, without parameters.
+PlantResult fitOf(const PlantCampaign& campaign) {
+  PlantResult r;
+  r.kind = "fit";
+  r.program_version = SPINDRIFT_VERSION;
+  r.inputs_fingerprint = campaign.fingerprint;
+  r.verdict = "converged";
+  return r;
+}
+
 class PlantPageTest : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -68,18 +90,8 @@ class PlantPageTest : public ::testing::Test {
       for (int week = 0; week < 60; ++week) {
         const bool changed = std::string(machine) == "gantry north" && week >= 40;
         if (std::string(machine) == "lathe 4" && week > 52) continue;
-        PlantCampaign c;
-        c.machine = machine;
-        c.name = "week " + std::to_string(week);
-        c.start_s = now() - week_s * (60.0 - week) - 3600.0;
-        c.fingerprint = c.machine + c.name;
-        c.program_version = SPINDRIFT_VERSION;
-        c.publisher = "anna@bench";
-        PlantResult r;
-        r.kind = "fit";
-        r.program_version = SPINDRIFT_VERSION;
-        r.inputs_fingerprint = c.fingerprint;
-        r.verdict = "converged";
+        PlantCampaign c = campaignOf(machine, "week " + std::to_string(week), week_s * (60.0 - week) + 3600.0);
+        PlantResult r = fitOf(c);
         for (const char* name : {"EX_um", "EZ_um"}) {
           const double u = random.uniform(0.2, 0.6);
           r.parameters.push_back(
@@ -148,18 +160,9 @@ class PlantPageTest : public ::testing::Test {
 TEST_F(PlantPageTest, ShowsTheMachinesOfTheDemosInTheLanguageOfTheWindow) {
   {
     PlantStore store = PlantStore::open(PlantAddress::parse(store_.toStdString()));
-    PlantCampaign c;
-    c.machine = "vertical machining centre";
-    c.name = "vertical machining centre, simulation with a gap";
-    c.start_s = now() - week_s;
-    c.fingerprint = "demo";
-    c.program_version = SPINDRIFT_VERSION;
-    c.publisher = "anna@bench";
-    PlantResult r;
-    r.kind = "fit";
-    r.program_version = SPINDRIFT_VERSION;
-    r.inputs_fingerprint = c.fingerprint;
-    r.verdict = "converged";
+    PlantCampaign c =
+        campaignOf("vertical machining centre", "vertical machining centre, simulation with a gap", week_s);
+    PlantResult r = fitOf(c);
     r.parameters.push_back({"M1", "EX_um", 8.0, 0.4});
     c.results.push_back(r);
     (void)store.publish(std::vector<PlantCampaign>{c});
