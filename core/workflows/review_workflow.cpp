@@ -247,8 +247,7 @@ ReviewPrediction reviewSimulation(const Campaign& campaign, const ObservationSet
   try {
     out.value = discrepancyInput(campaign, observations).predicted;
     for (const double v : out.value) out.sigma.push_back(campaign.simulation_gain_uncertainty * std::abs(v));
-    out.uncertainty = fmt::format("± is {:g} % of the simulated change, as campaign.json states.",
-                                  100.0 * campaign.simulation_gain_uncertainty);
+    out.uncertainty = fmt::format("± is {:g} % of the simulated change", 100.0 * campaign.simulation_gain_uncertainty);
   } catch (const InputError& error) {
     out.why = error.what();
   }

@@ -53,7 +53,7 @@ struct ReviewPrediction {
   std::vector<double> value;
   std::vector<double> sigma;
   std::string why;
-  std::string uncertainty;  ///< what sigma is, one sentence; empty: not known
+  std::string uncertainty;  ///< what sigma is, in a few words without a full stop; empty: not known
 };
 /// The simulation that the campaign names.
 [[nodiscard]] ReviewPrediction reviewSimulation(const Campaign& campaign, const ObservationSet& observations);

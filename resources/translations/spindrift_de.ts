@@ -11817,8 +11817,8 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>{}, Tisch bei {:g}°</translation>
     </message>
     <message>
-        <source>± is {:g} % of the simulated change, as campaign.json states.</source>
-        <translation>± ist {:g} % der simulierten Änderung, wie campaign.json angibt.</translation>
+        <source>± is {:g} % of the simulated change</source>
+        <translation>± ist {:g} % der simulierten Änderung</translation>
     </message>
 </context>
 <context>

@@ -199,7 +199,7 @@ TEST(Review, SimulationAndItsCompletionAreShownAsChanges) {
     half.value.push_back(o.component == Component::EX ? 0.5 * o.value + 7.0 : 0.0);
     half.sigma.push_back(0.1);
   }
-  half.uncertainty = "± is 1 % of the simulated change, as campaign.json states.";
+  half.uncertainty = "± is 1 % of the simulated change";
   ReviewRequest request{"M2", ReviewQuantity::Simulation, Component::EX};
   const ReviewPicture simulated = reviewOf(all, table(), request, &half);
   EXPECT_NEAR(simulated.points[2].components.at(Component::EX).value, 2.7, 1e-12);

@@ -535,7 +535,7 @@ std::span<const char* const> spindrift::gui::core_formats::workflows() noexcept 
     QT_TRANSLATE_NOOP("core", "{}\" is given twice; allowed: every column once."),
     QT_TRANSLATE_NOOP("core", "{}it was judged on rows that trained it, which shows nothing of new data"),
     QT_TRANSLATE_NOOP("core", "{}the model has no equivalent in first-order time constants"),
-    QT_TRANSLATE_NOOP("core", "± is {:g} % of the simulated change, as campaign.json states."),
+    QT_TRANSLATE_NOOP("core", "± is {:g} % of the simulated change"),
   };
   return formats;
 }

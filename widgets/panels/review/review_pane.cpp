@@ -203,7 +203,6 @@ void ReviewPane::show(const ReviewPicture& picture, const std::optional<double>&
                       double exaggeration, bool machine, bool values) {
   picture_ = picture;
   sayWhole(picture);
-  value_->setToolTip(coreSentence(picture.uncertainty));  // the view leaves notes out for which it has no room
   stack_->setCurrentWidget(view_);
   const auto from = source();
   if (from == nullptr) return;
@@ -240,15 +239,15 @@ void ReviewPane::show(const ReviewPicture& picture, const std::optional<double>&
   }
   view_->setPoints(std::move(points));
   view_->setArrows(std::move(shown_arrows), exaggeration);
-  view_->setCaption(coreSentence(picture.title) + QStringLiteral(", ") +
-                    fromCore(std::string(toString(picture.component))) +
-                    (picture.message.empty() ? QString() : QLatin1Char('\n') + coreSentence(picture.message)) +
-                    (picture.uncertainty.empty() ? QString() : QLatin1Char('\n') + coreSentence(picture.uncertainty)));
+  // What ± is stands in the first line: a view that is low leaves the others out.
+  caption_ = coreSentence(picture.title) + QStringLiteral(", ") + fromCore(std::string(toString(picture.component)));
+  if (!picture.uncertainty.empty()) caption_ += QStringLiteral(": ") + coreSentence(picture.uncertainty);
+  if (!picture.message.empty()) caption_ += QLatin1Char('\n') + coreSentence(picture.message);
+  view_->setCaption(caption_);
 }
 
 void ReviewPane::showScan(const ScanPicture& picture, const QString& title, double limit) {
   picture_ = {};
-  value_->setToolTip({});
   stack_->setCurrentWidget(scan_view_);
   const bool first = scan_view_->empty();
   const Camera camera = scan_view_->camera();
@@ -280,7 +279,6 @@ void ReviewPane::showScan(const ScanPicture& picture, const QString& title, doub
 void ReviewPane::showMessage(const QString& title, const QString& how) {
   picture_ = {};
   picture_.message = how.toStdString();
-  value_->setToolTip({});
   whole_.clear();
   setValue({});
   machine_of_.clear();

@@ -62,6 +62,8 @@ class ReviewPane : public QFrame {
   /// What the pane shows is chosen in a second line, so that panes side by side begin at one height.
   void setSecondLine(bool second);
   [[nodiscard]] const ReviewPicture& picture() const { return picture_; }
+  /// What stands at the top left of the view; a low view leaves out all lines but the first.
+  [[nodiscard]] const QString& caption() const { return caption_; }
   [[nodiscard]] View3D* view() const { return view_; }
   [[nodiscard]] View3D* scanView() const { return scan_view_; }
   [[nodiscard]] QComboBox* campaignChoice() const { return campaign_; }
@@ -90,6 +92,7 @@ class ReviewPane : public QFrame {
   View3D* scan_view_;
   QLabel* value_;
   ReviewPicture picture_;
+  QString caption_;
   QString whole_;           ///< said while the cursor is elsewhere: the largest value, or the range of a scan
   std::string machine_of_;  ///< folder of the campaign whose machine is in the view (ids start again in every session)
   bool filling_ = false;

@@ -20,6 +20,7 @@
 #include "widgets/plots/plot.h"
 #include "widgets/shell/help_panel.h"
 #include "widgets/theme/theme.h"
+#include "widgets/view3d/overlay.h"
 #include "widgets/view3d/view3d.h"
 
 namespace spindrift::gui {
@@ -238,6 +239,10 @@ TEST_F(Review, TheSimulationStandsBesideTheMeasurement) {
   ASSERT_TRUE(waitForJobs(*window_, 30));
   EXPECT_NEAR(page->pane(2)->picture().points[0].components.at(Component::EX).value, 9.0, 1e-9);
   EXPECT_EQ(page->pane(2)->picture().title, "M3, simulation");
+  // What ± is has room in the smallest of four panes, where the view keeps one note alone.
+  const QStringList notes = wrappedNotes(page->pane(2)->caption().split(QLatin1Char('\n')), 320.0, 120.0);
+  EXPECT_TRUE(notes.join(QLatin1Char(' ')).contains(QString::fromUtf8("± is 1 % of the simulated change")))
+      << notes.join(QLatin1Char('|')).toStdString();
   EXPECT_NEAR(page->pane(3)->picture().points[0].components.at(Component::EX).value, 0.9, 1e-3);
   EXPECT_FALSE(page->pane(4)->picture().message.empty()) << "nothing was searched yet, and the pane says so";
   page->pane(4)->choose(PaneContent::SimulationLeft, QStringLiteral("M1"));
