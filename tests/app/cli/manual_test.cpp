@@ -5,10 +5,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/base/text.h"
@@ -145,6 +147,56 @@ TEST(Manual, TheGermanChaptersHaveTheSameExamples) {
     ++chapters;
   }
   EXPECT_GE(chapters, 10);
+}
+
+/// What stands between ` in the running text, and the numbers outside of them with a point, sorted.
+std::pair<std::vector<std::string>, std::vector<std::string>> factsOf(const std::filesystem::path& chapter) {
+  std::vector<std::string> codes, numbers;
+  bool block = false;
+  bool code = false;
+  std::string word;
+  for (const std::string& line : linesOf(chapter)) {
+    if (line.starts_with("```")) block = !block;
+    if (block || line.starts_with("```")) continue;
+    for (std::size_t i = 0; i < line.size(); ++i) {
+      const auto digit = [&](std::size_t at) {
+        return at < line.size() && std::isdigit(static_cast<unsigned char>(line[at]));
+      };
+      if (line[i] == '`') {
+        if (code) codes.push_back(word);
+        code = !code;
+        word.clear();
+      } else if (code) {
+        word += line[i];
+      } else if (digit(i) && (i == 0 || !std::isalnum(static_cast<unsigned char>(line[i - 1])))) {
+        while (digit(i) || (i < line.size() && (line[i] == '.' || line[i] == ',') && digit(i + 1)))
+          word += line[i] == ',' ? '.' : line[i], ++i;
+        numbers.push_back(word);
+        word.clear();
+        --i;
+      }
+    }
+  }
+  std::sort(codes.begin(), codes.end());
+  std::sort(numbers.begin(), numbers.end());
+  return {codes, numbers};
+}
+
+/// A value that changed in one language changed in the other; commands, files and keys are the same in both.
+TEST(Manual, TheGermanTextTellsTheSameNumbersAndCommands) {
+  const std::filesystem::path english = sourceFolder() / "resources/manual";
+  std::size_t count = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(english)) {
+    if (!entry.is_regular_file()) continue;
+    const auto told = factsOf(entry.path());
+    auto german = factsOf(english / "de" / entry.path().filename());
+    std::replace(german.first.begin(), german.first.end(), std::string("hldk"), std::string("ltdk"));  // as it is typed
+    std::sort(german.first.begin(), german.first.end());
+    EXPECT_EQ(german.first, told.first) << entry.path().filename();
+    EXPECT_EQ(german.second, told.second) << entry.path().filename();
+    count += told.first.size() + told.second.size();
+  }
+  EXPECT_GT(count, 150U);
 }
 
 TEST(Manual, HoldsEveryEffectWithItsFigureAndEveryCommand) {

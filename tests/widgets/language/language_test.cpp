@@ -16,6 +16,7 @@
 #include <QUrl>
 #include <QXmlStreamReader>
 #include <filesystem>
+#include <map>
 #include <set>
 #include <string>
 #include <vector>
@@ -427,6 +428,39 @@ TEST_F(LanguageTest, DrawingsOfTheHelpAreInItToo) {
   ASSERT_FALSE(english.isNull());
   ASSERT_FALSE(german.isNull());
   EXPECT_NE(english, german) << "its caption";
+}
+
+/// Menus, steps and buttons are called in the German manual as they are in the German window.
+TEST(ManualLanguage, WhatIsPressedIsCalledAsInTheWindow) {
+  const auto plain = [](QString text) { return text.remove(QLatin1Char('&')).remove(QChar(0x2026)).simplified(); };
+  std::map<QString, std::set<QString>> window;
+  for (const Text& text : textsOf(QStringLiteral("spindrift_de.ts")))
+    for (const QString& translation : text.translations) window[plain(text.source)].insert(plain(translation));
+  const QString folder = QString::fromStdString((spindrift::testing::sourceFolder() / "resources/manual/").string());
+  static const QRegularExpression slanted(QStringLiteral("(?<!\\*)\\*([^*\\s][^*]*)\\*(?!\\*)"));
+  const auto pressed = [&](const QString& name) {
+    QFile file(folder + name);
+    EXPECT_TRUE(file.open(QIODevice::ReadOnly)) << name.toStdString();
+    QStringList all;
+    QString text = QString::fromUtf8(file.readAll());
+    text.remove(QRegularExpression(QStringLiteral("```.*?```"), QRegularExpression::DotMatchesEverythingOption));
+    for (auto found = slanted.globalMatch(text); found.hasNext();)
+      for (const QString& part : found.next().captured(1).split(QLatin1String(" > "))) all << plain(part);
+    return all;
+  };
+  int found = 0;
+  for (const QString& chapter : QDir(folder).entryList({QStringLiteral("*.md")})) {
+    const QStringList english = pressed(chapter);
+    const QStringList german = pressed(QStringLiteral("de/") + chapter);
+    ASSERT_EQ(english.size(), german.size()) << chapter.toStdString();
+    for (int i = 0; i < english.size(); ++i) {
+      const auto text = window.find(english[i]);
+      if (text == window.end()) continue;
+      ++found;
+      EXPECT_TRUE(text->second.contains(german[i])) << chapter.toStdString() << ": " << german[i].toStdString();
+    }
+  }
+  EXPECT_GE(found, 25);
 }
 
 /// A block that is not found is shown in English: none of them is.
