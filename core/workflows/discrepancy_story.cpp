@@ -11,14 +11,11 @@
 #include "core/discrepancy/effect_model.h"
 #include "core/math/distributions.h"
 #include "core/math/known_values.h"
+#include "core/workflows/discrepancy_sizes.h"
 #include "core/workflows/stored_effect.h"
 
 namespace spindrift {
 namespace {
-
-double excess(double rms, double noise) {
-  return std::isfinite(rms) ? std::sqrt(std::max(0.0, rms * rms - noise * noise)) : no_number;
-}
 
 /// Constants and rms of one series from its rows with use `fit`.
 /// `sigma`: of every reading, shift of its state included.
@@ -54,8 +51,8 @@ void finishSeries(DiscrepancySeries& s, const std::vector<double>& sigma, double
   s.noise = std::hypot(std::sqrt(variance / count), gain_uncertainty * std::sqrt(moved));
   s.rms_before = std::sqrt(before / count);
   s.rms_after = s.completed.empty() ? no_number : std::sqrt(after / count);
-  s.excess_before = excess(s.rms_before, s.noise);
-  s.excess_after = excess(s.rms_after, s.noise);
+  s.excess_before = beyondNoise(s.rms_before, s.noise);
+  s.excess_after = beyondNoise(s.rms_after, s.noise);
 }
 
 /// Marks series that deviate more than noise allows. Noise that is correlated in time has fewer independent values.
@@ -228,8 +225,8 @@ DiscrepancySeries seriesOf(const nlohmann::json& json) {
   s.significant = json.at("significant").get<bool>();
   s.rms_before = number("rms", 0);
   s.rms_after = number("rms", 1);
-  s.excess_before = excess(s.rms_before, s.noise);
-  s.excess_after = excess(s.rms_after, s.noise);
+  s.excess_before = beyondNoise(s.rms_before, s.noise);
+  s.excess_after = beyondNoise(s.rms_after, s.noise);
   const std::size_t rows = s.time_s.size();
   bool whole = rows > 0 && s.value.size() == rows && s.simulated.size() == rows && s.held_out.size() == rows &&
                s.completed_sigma.size() == s.completed.size();

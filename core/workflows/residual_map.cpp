@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 #include <utility>
 
 #include "core/machine/interpolated_field.h"
+#include "core/workflows/discrepancy_sizes.h"
 #include "core/workflows/fit_campaign.h"
 
 namespace spindrift {
@@ -53,16 +53,6 @@ std::vector<double> timesAtAngle(const DiscrepancyStory& story, Component compon
   }
   times_s.erase(std::unique(times_s.begin(), times_s.end()), times_s.end());
   return times_s;
-}
-
-std::set<double> anglesOf(const DiscrepancyStory& story, Component component) {
-  std::set<double> angles;
-  for (const DiscrepancySeries& s : story.series) {
-    if (s.component != component) continue;
-    if (s.places.empty()) angles.insert(0.0);
-    for (const TablePlace& p : s.places) angles.insert(p.c_deg);
-  }
-  return angles;
 }
 
 /// Half of the shortest time between two moments.

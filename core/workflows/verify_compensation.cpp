@@ -197,11 +197,11 @@ VerifyFigures verifyFigures(const std::vector<const VerifyPoint*>& points, bool 
   return f;
 }
 
-std::vector<VerifyPointFigures> verifyFiguresOfPoints(const VerifyResult& result, Component component) {
+std::vector<VerifyPointFigures> verifyFiguresOfPoints(const VerifyResult& result, Component component, double c_deg) {
   std::vector<VerifyPointFigures> figures;
   std::vector<std::vector<const VerifyPoint*>> values;
   for (const VerifyPoint& p : result.points) {
-    if (p.component != component) continue;
+    if (p.component != component || p.c_deg != c_deg) continue;
     const auto found = std::find_if(figures.begin(), figures.end(), [&](const auto& f) { return f.point == p.point; });
     if (found == figures.end()) {
       figures.push_back({p.point, {}, {}});

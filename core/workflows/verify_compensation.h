@@ -83,13 +83,15 @@ struct VerifyResult {
   [[nodiscard]] std::string summary() const;
 };
 
-/// Of one component at a point, over the states.
+/// Of one component at a point, over the states, with the table at one angle.
 struct VerifyPointFigures {
   std::string point;
   VerifyFigures before, after;
 };
-/// Of every point, in the order of the result.
-[[nodiscard]] std::vector<VerifyPointFigures> verifyFiguresOfPoints(const VerifyResult& result, Component component);
+/// Of every point measured with the table at `c_deg` (deg), in the order of the result: at another angle the point is
+/// elsewhere on the table and its values are others.
+[[nodiscard]] std::vector<VerifyPointFigures> verifyFiguresOfPoints(const VerifyResult& result, Component component,
+                                                                    double c_deg);
 
 /// Observations marked `exclude` take no part. Rows may stand in any order.
 [[nodiscard]] VerifyResult verifyCompensation(const ObservationSet& before, const ObservationSet& after,

@@ -567,6 +567,14 @@
         <source>%1, table at %2°</source>
         <translation>%1, Tisch bei %2°</translation>
     </message>
+    <message>
+        <source>Angle of the table at which the values were measured</source>
+        <translation>Winkel des Tisches, bei dem die Werte gemessen wurden</translation>
+    </message>
+    <message>
+        <source>Table at %1°</source>
+        <translation>Tisch bei %1°</translation>
+    </message>
 </context>
 <context>
     <name>Tasks</name>
@@ -26520,16 +26528,8 @@ ihrem Ordner und führen nicht hinaus.
         <translation>Punkte werden gelesen</translation>
     </message>
     <message>
-        <source>Angle of the table at which the values were measured</source>
-        <translation>Winkel des Tisches, bei dem die Werte gemessen wurden</translation>
-    </message>
-    <message>
         <source>Table at its worst angle</source>
         <translation>Tisch beim ungünstigsten Winkel</translation>
-    </message>
-    <message>
-        <source>Table at %1°</source>
-        <translation>Tisch bei %1°</translation>
     </message>
 </context>
 <context>

@@ -90,6 +90,18 @@ TEST(Verify, AngleOfTheTableIsPartOfAPlace) {
   EXPECT_EQ(verifyMap(result, {}, Component::EX, std::nullopt).pose, worstPose(result, Component::EX));
 }
 
+TEST(Verify, FiguresOfAPointAreOfOneAngleOfTheTable) {
+  VerifyResult result;
+  for (const char* state : {"M1", "M2"})
+    for (const double c_deg : {0.0, 90.0})
+      result.points.push_back({"P1", state, {0, 0, 0}, Component::EX, c_deg == 0.0 ? 3.0 : -9.0, 0.0, 0.5, 0.0, c_deg});
+  result.points.push_back({"P2", "M1", {0, 0, 0}, Component::EX, 1.0, 0.0, 0.5, 0.0, 90.0});
+  ASSERT_EQ(verifyFiguresOfPoints(result, Component::EX, 0.0).size(), 1U) << "P2 was measured at 90 degrees alone";
+  EXPECT_DOUBLE_EQ(verifyFiguresOfPoints(result, Component::EX, 0.0)[0].before.rms, 3.0);
+  EXPECT_DOUBLE_EQ(verifyFiguresOfPoints(result, Component::EX, 90.0).at(0).before.rms, 9.0);
+  EXPECT_EQ(verifyFiguresOfPoints(result, Component::EX, 90.0).at(1).point, "P2");
+}
+
 TEST(Verify, MachinesOfDifferentNamesAreSaid) {
   Campaign one = campaignWith({0.0, 0.0, 0.0}), other = campaignWith({1.0, 1.0, 1.0});
   one.machine.name = "mill";

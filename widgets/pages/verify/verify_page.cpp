@@ -101,9 +101,7 @@ VerifyPage::VerifyPage(PageContext page_context, QWidget* parent)
   component_->setAccessibleName(tr("Component that is drawn"));
   component_->setMinimumWidth(90);
   choice->addWidget(component_);
-  angle_ = new QComboBox;
-  angle_->setAccessibleName(tr("Angle of the table at which the values were measured"));
-  angle_->hide();
+  angle_ = new TableAngleChoice(tr("Table at its worst angle"));
   choice->addWidget(angle_);
   right->body()->addLayout(choice);
   plot_ = new Plot;
@@ -123,7 +121,10 @@ VerifyPage::VerifyPage(PageContext page_context, QWidget* parent)
   });
   connect(angle_, &QComboBox::activated, this, [this](int) { showPlot(); });
   connect(shown_, &Segments::chosen, this, [this] { setShown(shown_->current()); });
-  connect(maps_, &VerifyMaps::stateChosen, this, &VerifyPage::showMaps);
+  connect(maps_, &VerifyMaps::stateChosen, this, [this] {
+    showPoints();
+    showMaps();
+  });
   connect(point_table->selectionModel(), &QItemSelectionModel::currentRowChanged, this, [this](const QModelIndex& now) {
     for (const int side : {0, 1}) maps_->view(side)->setSelected(points_->idAt(now.row()));
   });
@@ -138,18 +139,18 @@ VerifyPage::VerifyPage(PageContext page_context, QWidget* parent)
 void VerifyPage::setShown(int index) {
   shown_->setCurrent(index);
   stack_->setCurrentIndex(index);
-  angle_->setVisible(index == 0 && angle_->count() > 2);
+  angle_->setVisible(index == 0 && angle_->several());
+  showPoints();
   showMaps();
 }
 
-void VerifyPage::fillAngles() {
-  const QVariant chosen = angle_->currentData();
-  angle_->clear();
-  angle_->addItem(tr("Table at its worst angle"));
-  for (const double c_deg : anglesOf(*result_))
-    angle_->addItem(tr("Table at %1°").arg(decimalText(c_deg, 'g', 6)), c_deg);
-  angle_->setCurrentIndex(std::max(0, chosen.isValid() ? angle_->findData(chosen) : 0));
-  angle_->setVisible(stack_->currentIndex() == 0 && angle_->count() > 2);
+QString VerifyPage::pointsTitle() const {
+  return points_title_->text();
+}
+
+double VerifyPage::shownAngle(Component component) const {
+  if (stack_->currentIndex() == 1) return maps_->pose().value_or(worstPose(*result_, component)).c_deg;
+  return angle_->chosen().value_or(worstPose(*result_, component).c_deg);
 }
 
 QWidget* VerifyPage::makeChoices() {
@@ -331,7 +332,8 @@ void VerifyPage::showResult() {
                 toneOf(result_->verdict));
   if (component_->findText(chosen) >= 0) component_->setCurrentText(chosen);
   maps_->setPoses(posesOf(*result_));
-  fillAngles();
+  angle_->setAngles(anglesOf(*result_));
+  angle_->setVisible(stack_->currentIndex() == 0 && angle_->several());
   showPlot();
   showMaps();
 }
@@ -353,26 +355,32 @@ void VerifyPage::showMaps() {
 }
 
 void VerifyPage::showPlot() {
+  showPoints();
+  const auto component = componentFromString(component_->currentText().toStdString());
+  if (result_ == nullptr || !component) return plot_->setContent({});
+  const double c_deg = angle_->chosen().value_or(worstPose(*result_, *component).c_deg);
+  VerifyCurves curves = verifyCurves(*result_, *component, c_deg);
+  plot_->setAxes(angle_->several() ? withTableAngle(curves.x_title, c_deg) : curves.x_title, curves.y_title);
+  plot_->setContent(std::move(curves.series));
+}
+
+void VerifyPage::showPoints() {
   const auto component = componentFromString(component_->currentText().toStdString());
   if (result_ == nullptr || !component) {
     points_title_->setText(tr("Points"));
     points_->setRows({});
-    plot_->setContent({});
     return;
   }
-  points_title_->setText(tr("%1 at the points").arg(component_->currentText()));
+  const double c_deg = shownAngle(*component);
+  const QString title = tr("%1 at the points").arg(component_->currentText());
+  points_title_->setText(angle_->several() ? withTableAngle(title, c_deg) : title);
   display(tr("Reading the points"),
-          [this, result = result_, component = *component](JobContext&) -> std::function<void()> {
-            return [this, result, component, figures = verifyFiguresOfPoints(*result, component)] {
-              if (result == result_) points_->setRows(verifyPointRows(figures, component, result->goal(component)));
+          [this, result = result_, component = *component, c_deg](JobContext&) -> std::function<void()> {
+            return [this, result, component, c_deg, figures = verifyFiguresOfPoints(*result, component, c_deg)] {
+              if (result != result_ || shownAngle(component) != c_deg) return;
+              points_->setRows(verifyPointRows(figures, component, result->goal(component)));
             };
           });
-  const QVariant chosen = angle_->currentData();
-  const double c_deg = chosen.isValid() ? chosen.toDouble() : worstPose(*result_, *component).c_deg;
-  VerifyCurves curves = verifyCurves(*result_, *component, c_deg);
-  const bool turned = angle_->count() > 2;
-  plot_->setAxes(turned ? withTableAngle(curves.x_title, c_deg) : curves.x_title, curves.y_title);
-  plot_->setContent(std::move(curves.series));
 }
 
 std::vector<Exportable> VerifyPage::exportables() {

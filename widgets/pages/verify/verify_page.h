@@ -3,6 +3,7 @@
 // against the goal that the user set, with the uncertainty taken into account.
 #pragma once
 
+#include <QString>
 #include <memory>
 
 #include "core/workflows/verify_compensation.h"
@@ -19,6 +20,7 @@ class NumberTile;
 class Plot;
 class RowsModel;
 class Segments;
+class TableAngleChoice;
 class VerifyMaps;
 
 class VerifyPage : public Page {
@@ -37,7 +39,8 @@ class VerifyPage : public Page {
   [[nodiscard]] Plot* plot() const { return plot_; }
   [[nodiscard]] VerifyMaps* maps() const { return maps_; }
   /// Of the table, for the values that are drawn.
-  [[nodiscard]] QComboBox* angleChoice() const { return angle_; }
+  [[nodiscard]] TableAngleChoice* angleChoice() const { return angle_; }
+  [[nodiscard]] QString pointsTitle() const;
   /// 0: every value, 1: on the table.
   void setShown(int index);
   [[nodiscard]] const std::shared_ptr<const VerifyResult>& result() const { return result_; }
@@ -49,8 +52,10 @@ class VerifyPage : public Page {
   /// Curves and table of the points, of the component that is chosen.
   void showPlot();
   void showMaps();
-  /// The angles of the table to choose from; without several no choice is shown.
-  void fillAngles();
+  /// The table of the points at the angle of the table that is drawn beside it.
+  void showPoints();
+  /// Angle of the table of what is drawn: of the curves, or of the state on the table; deg.
+  [[nodiscard]] double shownAngle(Component component) const;
 
   std::shared_ptr<const VerifyResult> result_;
 
@@ -63,7 +68,7 @@ class VerifyPage : public Page {
   NumberTile* left_;
   NumberTile* verdict_;
   QComboBox* component_;
-  QComboBox* angle_;
+  TableAngleChoice* angle_;
   RowsModel* components_;
   RowsModel* points_;
   QLabel* points_title_;

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "core/machine/driver_words.h"
+#include "core/workflows/discrepancy_sizes.h"
 #include "core/workflows/residual_map.h"
 #include "widgets/common/core_sentence.h"
 #include "widgets/common/page_room.h"
@@ -326,10 +327,7 @@ void GapPanel::showPlots() {
   }
   showNoise();
   // What was measured with the table at another angle stood elsewhere and belongs to no line through these.
-  const auto measuredAt = [s](double c_deg) {
-    return std::any_of(s->places.begin(), s->places.end(), [c_deg](const TablePlace& p) { return p.c_deg == c_deg; });
-  };
-  plotted_c_deg_ = !moments_.empty() && measuredAt(shownMoment().c_deg) ? shownMoment().c_deg : s->placeOf(0).c_deg;
+  plotted_c_deg_ = !moments_.empty() && measuredAt(*s, shownMoment().c_deg) ? shownMoment().c_deg : s->placeOf(0).c_deg;
   std::array<double, 2> squares{};
   double fitted = 0.0;
   const TimeUnit unit = timeUnit(s->time_s.back());

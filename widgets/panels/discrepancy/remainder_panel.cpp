@@ -15,6 +15,7 @@
 #include "widgets/models/cells.h"
 #include "widgets/models/rows_model.h"
 #include "widgets/panels/common/effect_titles.h"
+#include "widgets/panels/discrepancy/shown_angle.h"
 #include "widgets/plots/plot.h"
 #include "widgets/theme/numbers.h"
 #include "widgets/theme/shown_units.h"
@@ -217,12 +218,13 @@ void RemainderPanel::showPlot() {
     return;
   }
   const TimeUnit unit = timeUnit(s->time_s.back());
+  const double c_deg = clearestAngle(*s);
   plot_->setAxes(tr("Time / %1").arg(unit.name),
                  tr("%1 residual / %2").arg(componentName(component_), componentUnit(component_)));
   plot_->setLeastRange(s->noise);
   std::vector<Series> series;
   if (which_->current() == 1) {
-    plot_card_->setTitle(tr("Remainder of %1 at all points").arg(componentName(component_)));
+    plot_card_->setTitle(withShownAngle(tr("Remainder of %1 at all points").arg(componentName(component_)), *s, c_deg));
     for (const DiscrepancySeries& other : story_->series) {
       if (other.component != component_ || other.remaining.empty()) continue;
       if (series.size() >= most_lines && other.point != point_) continue;
@@ -232,7 +234,7 @@ void RemainderPanel::showPlot() {
       // The chosen point stands out; names of the others are shown where the pointer is.
       line.colour = other.point == point_ ? 3 : 4;
       for (std::size_t i = 0; i < other.time_s.size(); ++i) {
-        if (!std::isfinite(other.remaining[i])) continue;
+        if (!std::isfinite(other.remaining[i]) || other.placeOf(i).c_deg != c_deg) continue;
         line.x.push_back(other.time_s[i] / unit.seconds);
         line.y.push_back(other.remaining[i]);
       }
@@ -244,7 +246,8 @@ void RemainderPanel::showPlot() {
     plot_->setContent(std::move(series));
     return;
   }
-  plot_card_->setTitle(tr("%1 of %2 over time").arg(componentName(component_), QString::fromStdString(point_)));
+  plot_card_->setTitle(withShownAngle(
+      tr("%1 of %2 over time").arg(componentName(component_), QString::fromStdString(point_)), *s, c_deg));
   Series measured;
   measured.name = tr("measured − simulated");
   measured.style = SeriesStyle::Points;
@@ -267,6 +270,7 @@ void RemainderPanel::showPlot() {
   remaining.style = SeriesStyle::Line;
   remaining.colour = 3;
   for (std::size_t i = 0; i < s->time_s.size(); ++i) {
+    if (s->placeOf(i).c_deg != c_deg) continue;
     const double t = s->time_s[i] / unit.seconds;
     measured.x.push_back(t);
     measured.y.push_back(s->value[i] - s->simulated[i] - s->constant_before);

@@ -23,6 +23,7 @@
 #include "widgets/models/cells.h"
 #include "widgets/models/rows_model.h"
 #include "widgets/panels/common/effect_titles.h"
+#include "widgets/panels/discrepancy/shown_angle.h"
 #include "widgets/plots/plot.h"
 #include "widgets/theme/numbers.h"
 #include "widgets/theme/shown_units.h"
@@ -309,9 +310,10 @@ void WhatPanel::choose(const std::string& point, Component component) {
     return;
   }
   const TimeUnit unit = timeUnit(s->time_s.back());
-  plot_title_->setText(s->explained.empty()
-                           ? tr("%1 of %2: unexplained").arg(componentName(component), QString::fromStdString(point))
-                           : tr("%1 of %2: explained").arg(componentName(component), QString::fromStdString(point)));
+  const double c_deg = clearestAngle(*s);
+  const QString at = withShownAngle(QString::fromStdString(point), *s, c_deg);
+  plot_title_->setText(s->explained.empty() ? tr("%1 of %2: unexplained").arg(componentName(component), at)
+                                            : tr("%1 of %2: explained").arg(componentName(component), at));
   plot_->setAxes(tr("Time / %1").arg(unit.name),
                  tr("%1 residual / %2").arg(componentName(component), componentUnit(component)));
   Series measured;
@@ -323,6 +325,7 @@ void WhatPanel::choose(const std::string& point, Component component) {
   line.style = SeriesStyle::Line;
   line.colour = 0;
   for (std::size_t i = 0; i < s->time_s.size(); ++i) {
+    if (s->placeOf(i).c_deg != c_deg) continue;
     measured.x.push_back(s->time_s[i] / unit.seconds);
     measured.y.push_back(s->value[i] - s->simulated[i] - s->constant_before);
     if (s->explained.empty()) continue;

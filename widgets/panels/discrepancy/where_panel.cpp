@@ -11,13 +11,16 @@
 #include <cmath>
 #include <optional>
 
+#include "core/workflows/discrepancy_sizes.h"
 #include "widgets/common/core_sentence.h"
 #include "widgets/common/page_room.h"
 #include "widgets/common/parts.h"
+#include "widgets/common/table_angle.h"
 #include "widgets/common/wrap_layout.h"
 #include "widgets/models/cells.h"
 #include "widgets/models/rows_model.h"
 #include "widgets/panels/common/effect_titles.h"
+#include "widgets/panels/discrepancy/shown_angle.h"
 #include "widgets/plots/plot.h"
 #include "widgets/theme/shown_units.h"
 #include "widgets/view3d/view3d.h"
@@ -40,7 +43,8 @@ WherePanel::WherePanel(QWidget* parent) : QWidget(parent) {
   stretchColumn(place_table_, 1);
   left->body()->addWidget(place_table_, 4);
   auto* points_line = new QHBoxLayout;
-  points_title_ = makeLabel({}, "sectionTitle");
+  points_title_ = new WrappedLabel;
+  points_title_->setProperty("role", QStringLiteral("sectionTitle"));
   points_line->addWidget(points_title_, 1);
   segment_place_ = new QVBoxLayout;
   points_line->addLayout(segment_place_);
@@ -55,7 +59,11 @@ WherePanel::WherePanel(QWidget* parent) : QWidget(parent) {
   auto* right_column = new QVBoxLayout(right);
   right_column->setContentsMargins(0, 0, 0, 0);
   which_ = new Segments({tr("Over time"), tr("On the machine")}, tr("What is shown"));
-  right_column->addWidget(which_);
+  angle_ = new TableAngleChoice;
+  auto* shown_line = new WrapLayout;
+  shown_line->addWidget(which_);
+  shown_line->addWidget(angle_);
+  right_column->addLayout(shown_line);
   view_card_ = new Card(tr("On the machine"));
   auto* view_card = view_card_;
   machine_box_ = new QCheckBox(tr("Machine"));
@@ -102,6 +110,10 @@ WherePanel::WherePanel(QWidget* parent) : QWidget(parent) {
     if (story_ != nullptr) showPlot();
   });
   connect(which_, &Segments::chosen, this, [this](int) { arrange(); });
+  connect(angle_, &QComboBox::activated, this, [this](int) {
+    showAngle();
+    Q_EMIT chosen();
+  });
   connect(view_, &View3D::hovered, this, &WherePanel::hovered);
   connect(plot_, &Plot::hovered, this, &WherePanel::hovered);
 }
@@ -129,6 +141,7 @@ void WherePanel::show(const std::shared_ptr<const DiscrepancyStory>& story, cons
     plot_->setContent({});
     plot_title_->clear();
     legend_->clear();
+    angle_->setAngles({});
     place_ = -1;
     fillSegments();
     return;
@@ -221,15 +234,16 @@ void WherePanel::fillSegments() {
 void WherePanel::fillPoints() {
   following_ = true;
   const QString unit = componentUnit(component_);
-  points_title_->setText(shownTitle(tr("Points, rms over time / %1").arg(unit)));
+  points_title_->setText(withAngle(shownTitle(tr("Points, rms over time / %1").arg(unit))));
   std::vector<Row> rows;
   for (const DiscrepancySeries& s : story_->series) {
-    if (s.component != component_) continue;
+    if (s.component != component_ || !measuredAt(s, c_deg())) continue;
+    const SeriesSizes sizes = sizesAt(s, c_deg());
     Row row;
     row.id = QString::fromStdString(s.point);
     Cell name{row.id};
     name.bold = true;
-    Cell beyond = rightCell(sizeText(s.excess_before, {}));
+    Cell beyond = rightCell(sizeText(sizes.excess, {}));
     if (s.significant) {
       beyond.tone = Tone::Attention;
       beyond.icon = "alert";
@@ -237,7 +251,7 @@ void WherePanel::fillPoints() {
     } else {
       beyond.tip = tr("No more than noise may add up to at a point among so many");
     }
-    row.cells = {name, rightCell(sizeText(s.rms_before, {})), rightCell(sizeText(s.rms_after, {})),
+    row.cells = {name, rightCell(sizeText(sizes.before, {})), rightCell(sizeText(sizes.after, {})),
                  rightCell(sizeText(s.noise, {})), beyond};
     for (std::size_t i = 1; i < row.cells.size(); ++i) row.cells[i].unit = unit;
     rows.push_back(std::move(row));
@@ -261,20 +275,48 @@ void WherePanel::choosePlace(int row) {
     const DiscrepancySeries* s = story_->find(point, place.component);
     if (s != nullptr && (clearest == nullptr || s->excess_before > clearest->excess_before)) clearest = s;
   }
-  if (clearest != nullptr) point_ = clearest->point;
-  chooseComponent(place.component);
-  Q_EMIT chosen();
-  if (clearest == nullptr) return;
-  // The time at which it shows most.
+  // The time at which it shows most, and the angle of the table then.
   std::optional<std::size_t> most;
   const auto residual = [clearest](std::size_t i) {
     return std::abs(clearest->value[i] - clearest->simulated[i] - clearest->constant_before);
   };
-  for (std::size_t i = 0; i < clearest->time_s.size(); ++i) {
+  for (std::size_t i = 0; clearest != nullptr && i < clearest->time_s.size(); ++i) {
     if (clearest->time_s[i] < place.from_s || clearest->time_s[i] > place.to_s) continue;
     if (!most || residual(i) > residual(*most)) most = i;
   }
+  if (clearest != nullptr) point_ = clearest->point;
+  angle_->setAngles(anglesOf(*story_, place.component));
+  if (most) angle_->choose(clearest->placeOf(*most).c_deg);
+  chooseComponent(place.component);
+  Q_EMIT chosen();
   if (most) Q_EMIT timeChosen(clearest->time_s[*most]);
+}
+
+double WherePanel::c_deg() const {
+  return angle_->chosen().value_or(0.0);
+}
+
+QString WherePanel::withAngle(const QString& what) const {
+  return angle_->several() ? withTableAngle(what, c_deg()) : what;
+}
+
+void WherePanel::chooseMeasuredAngle() {
+  const DiscrepancySeries* s = story_->find(point_, component_);
+  if (s == nullptr || measuredAt(*s, c_deg())) return;
+  angle_->choose(clearestAngle(*s));
+}
+
+void WherePanel::showAngle() {
+  const DiscrepancySeries* now = story_->find(point_, component_);
+  if (now == nullptr || !measuredAt(*now, c_deg())) {
+    const auto there = std::find_if(story_->series.begin(), story_->series.end(), [this](const DiscrepancySeries& s) {
+      return s.component == component_ && measuredAt(s, c_deg());
+    });
+    if (there != story_->series.end()) point_ = there->point;
+  }
+  fillPoints();
+  showView();
+  showPlot();
 }
 
 void WherePanel::chooseTime(double time_s) {
@@ -320,6 +362,8 @@ void WherePanel::chooseComponent(Component component) {
                                     [&](const DiscrepancySeries& s) { return s.component == component_; });
     point_ = first == story_->series.end() ? std::string() : first->point;
   }
+  angle_->setAngles(anglesOf(*story_, component_));
+  chooseMeasuredAngle();
   fillPoints();
   showView();
   showPlot();
@@ -345,6 +389,9 @@ void WherePanel::selectPoint(const std::string& point) {
       if (holds(i)) place_ = i;
     }
   }
+  const double before_deg = c_deg();
+  chooseMeasuredAngle();
+  if (c_deg() != before_deg) fillPoints();
   following_ = true;
   if (place_ >= 0) {
     place_table_->selectRow(place_);
@@ -359,33 +406,39 @@ void WherePanel::selectPoint(const std::string& point) {
 }
 
 void WherePanel::showView() {
+  // One scale for all angles of the table.
   double largest = 0.0;
   for (const DiscrepancySeries& s : story_->series) {
+    if (isRotation(s.component) != isRotation(component_)) continue;
     // Not below the noise: what lies within it keeps dark colours.
-    if (isRotation(s.component) == isRotation(component_)) largest = std::max({largest, s.excess_before, s.noise});
+    largest = std::max({largest, s.excess_before, s.noise});
+    for (const TablePlace& place : s.places) {
+      if (const double excess = sizesAt(s, place.c_deg).excess; excess > largest) largest = excess;
+    }
   }
   const QString unit = componentUnit(component_);
   std::vector<ViewPoint> points;
   for (const DiscrepancySeries& s : story_->series) {
-    if (s.component != component_) continue;
+    if (s.component != component_ || !measuredAt(s, c_deg())) continue;
+    const SeriesSizes sizes = sizesAt(s, c_deg());
     ViewPoint p;
     p.id = p.label = QString::fromStdString(s.point);
-    p.position_mm = s.position_mm;
-    p.value = s.excess_before;
-    if (s.point == point_) p.value_text = sizeText(s.excess_before, unit);
-    p.used = s.significant;
+    p.position_mm = sizes.position_mm;
+    p.value = sizes.excess;
+    if (s.point == point_) p.value_text = sizeText(sizes.excess, unit);
+    p.used = s.significant && sizes.excess > 0.0;
     points.push_back(std::move(p));
   }
   view_->setColourScale(ColourScale::magnitude(largest, componentName(component_), unit));
   view_->setPoints(std::move(points));
   view_->setSelected(QString::fromStdString(point_));
-  view_->setCaption(
-      tr("%1 beyond the noise, rms over time; dotted: the noise explains it").arg(componentName(component_)));
+  view_->setCaption(withAngle(
+      tr("%1 beyond the noise, rms over time; dotted: the noise explains it").arg(componentName(component_))));
 }
 
 void WherePanel::showPlot() {
   const DiscrepancySeries* s = story_->find(point_, component_);
-  if (s == nullptr || s->time_s.empty()) {
+  if (s == nullptr || !measuredAt(*s, c_deg()) || s->time_s.empty()) {
     plot_->setContent({});
     plot_title_->clear();
     legend_->clear();
@@ -393,7 +446,8 @@ void WherePanel::showPlot() {
   }
   const TimeUnit unit = timeUnit(s->time_s.back());
   plot_second_ = 1.0 / unit.seconds;
-  plot_title_->setText(tr("%1 of point %2 over time").arg(componentName(component_), QString::fromStdString(point_)));
+  plot_title_->setText(
+      withAngle(tr("%1 of point %2 over time").arg(componentName(component_), QString::fromStdString(point_))));
   plot_->setAxes(tr("Time / %1").arg(unit.name),
                  tr("%1 residual / %2").arg(componentName(component_), componentUnit(component_)));
   Series noise;
@@ -412,6 +466,8 @@ void WherePanel::showPlot() {
   double held_from = std::nan("");
   double held_to = 0.0;
   for (std::size_t i = 0; i < s->time_s.size(); ++i) {
+    // What was measured with the table at another angle stood elsewhere.
+    if (s->placeOf(i).c_deg != c_deg()) continue;
     const double t = s->time_s[i] / unit.seconds;
     before.x.push_back(t);
     before.y.push_back(s->value[i] - s->simulated[i] - s->constant_before);

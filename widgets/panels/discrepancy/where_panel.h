@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Where measurement and simulation disagree: places, points, the machine and the residual over time, selected together.
+// What was measured with the table at several angles is shown at one of them: that of the reading at which the place
+// chosen shows most, or another that the user chooses.
 #pragma once
 
 #include <QWidget>
@@ -21,7 +23,9 @@ class Card;
 class Plot;
 class RowsModel;
 class Segments;
+class TableAngleChoice;
 class View3D;
+class WrappedLabel;
 
 class WherePanel : public QWidget {
   Q_OBJECT
@@ -37,6 +41,7 @@ class WherePanel : public QWidget {
   [[nodiscard]] Plot* plot() const { return plot_; }
   [[nodiscard]] QTableView* placeTable() const { return place_table_; }
   [[nodiscard]] QTableView* pointTable() const { return point_table_; }
+  [[nodiscard]] TableAngleChoice* angleChoice() const { return angle_; }
   [[nodiscard]] Component component() const { return component_; }
   [[nodiscard]] const std::string& point() const { return point_; }
 
@@ -61,6 +66,13 @@ class WherePanel : public QWidget {
   void choosePoint(const std::string& point);
   void selectPoint(const std::string& point);
   void chooseTime(double time_s);
+  /// Points, machine and plot at the angle of the table that is chosen; another point where this one was not measured.
+  void showAngle();
+  /// Chooses an angle of the table at which the point chosen was measured, the clearest, unless this is one.
+  void chooseMeasuredAngle();
+  /// What is named, with the angle of the table behind it where there are several.
+  [[nodiscard]] QString withAngle(const QString& what) const;
+  [[nodiscard]] double c_deg() const;
   void arrange();
 
   RowsModel* places_;
@@ -70,10 +82,11 @@ class WherePanel : public QWidget {
   QVBoxLayout* segment_place_;
   Segments* segments_ = nullptr;
   QCheckBox* machine_box_;
-  QLabel* points_title_;
+  WrappedLabel* points_title_;
   QLabel* plot_title_;
   QLabel* legend_;
   Segments* which_;
+  TableAngleChoice* angle_;
   Card* view_card_;
   Card* plot_card_;
   View3D* view_;

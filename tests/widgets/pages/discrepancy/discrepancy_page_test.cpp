@@ -20,6 +20,7 @@
 #include "tests/widgets/support/story_support.h"
 #include "widgets/commands/commands.h"
 #include "widgets/common/parts.h"
+#include "widgets/common/table_angle.h"
 #include "widgets/panels/common/effect_titles.h"
 #include "widgets/panels/discrepancy/gap_bars.h"
 #include "widgets/panels/discrepancy/gap_panel.h"
@@ -455,7 +456,8 @@ TEST_F(DiscrepancyPageTest, ShowsOneSideOfTheGapWhereBothHaveNoRoom) {
     window_->grab().save(folder + QStringLiteral("/gap_one_side.png"));
 }
 
-TEST(GapPanelTest, ShowsWhatWasMeasuredAtOneAngleOfTheTable) {
+/// EX of P1 ... P3 six times, with the table at 0° and at 90° in turn: 1 um there, 5 um here.
+std::shared_ptr<DiscrepancyStory> storyAtTwoAngles() {
   auto story = std::make_shared<DiscrepancyStory>();
   for (int p = 0; p < 3; ++p) {
     DiscrepancySeries s;
@@ -473,6 +475,11 @@ TEST(GapPanelTest, ShowsWhatWasMeasuredAtOneAngleOfTheTable) {
     s.noise = 0.2;
     story->series.push_back(s);
   }
+  return story;
+}
+
+TEST(GapPanelTest, ShowsWhatWasMeasuredAtOneAngleOfTheTable) {
+  const auto story = storyAtTwoAngles();
   const MachineDescription machine;
   GapPanel panel;
   panel.resize(1400, 800);
@@ -497,6 +504,59 @@ TEST(GapPanelTest, ShowsWhatWasMeasuredAtOneAngleOfTheTable) {
         return points.size() == 3U && points.front().position_mm.x() > 0.0 && points.front().value == 1.0;
       },
       2000));
+}
+
+TEST(WherePanelTest, ShowsWhatWasMeasuredAtOneAngleOfTheTable) {
+  const auto story = storyAtTwoAngles();
+  for (DiscrepancySeries& s : story->series) {
+    // As the mean over both angles: where no point ever stood.
+    s.position_mm = 0.5 * (s.places[0].position_mm + s.places[1].position_mm);
+    s.rms_before = s.excess_before = std::sqrt(13.0);
+    s.significant = true;
+  }
+  DisagreementPlace place;
+  place.component = Component::EX;
+  place.points = {"P1", "P2", "P3"};
+  place.to_s = 3000.0;
+  place.excess_um = 3.6;
+  story->where = {place};
+  const MachineDescription machine;
+  WherePanel panel;
+  panel.resize(1400, 800);
+  panel.setVisible(true);
+  panel.show(story, &machine);
+  ASSERT_TRUE(panel.angleChoice()->isVisible());
+  const auto excess = [&] { return panel.pointTable()->model()->index(0, 4).data().toString().toDouble(); };
+  EXPECT_EQ(panel.angleChoice()->chosen(), 90.0) << "the place shows most there";
+  EXPECT_LT(panel.view()->points().front().position_mm.x(), 0.0) << "turned with the table";
+  EXPECT_NEAR(*panel.view()->points().front().value, 5.0, 0.01);
+  EXPECT_EQ(panel.plot()->series().at(1).y, std::vector<double>(3, 5.0));
+  EXPECT_NEAR(excess(), 5.0, 0.06);
+  panel.angleChoice()->setCurrentIndex(0);
+  Q_EMIT panel.angleChoice()->activated(0);
+  EXPECT_EQ(panel.view()->points().front().position_mm, story->series.front().places.front().position_mm);
+  EXPECT_NEAR(*panel.view()->points().front().value, std::sqrt(1.0 - 0.04), 0.01);
+  EXPECT_EQ(panel.plot()->series().at(1).y, std::vector<double>(3, 1.0));
+  EXPECT_NEAR(excess(), 1.0, 0.06);
+  QStringList titles;
+  for (const QLabel* label : panel.findChildren<QLabel*>()) titles << label->text();
+  EXPECT_EQ(titles.filter(QString::fromUtf8("table at 0°")).size(), 2) << titles.join('|').toStdString();
+}
+
+TEST(RemainderPanelTest, DrawsWhatWasMeasuredAtOneAngleOfTheTable) {
+  const auto story = storyAtTwoAngles();
+  for (DiscrepancySeries& s : story->series) s.explained = s.remaining = s.value;
+  RemainderPanel remainder;
+  remainder.show(story);
+  WhatPanel what;
+  what.show(story);
+  what.choose("P1", Component::EX);
+  for (const Plot* plot : {remainder.plot(), what.findChild<Plot*>()}) {
+    for (const Series& line : plot->series()) {
+      if (line.style != SeriesStyle::Points && line.colour != 0) continue;
+      EXPECT_EQ(line.y, std::vector<double>(3, 5.0)) << line.name.toStdString();
+    }
+  }
 }
 
 TEST(DiscrepancyStoryTest, ReadsBackWhatItWrote) {

@@ -13,6 +13,7 @@
 #include "core/base/text.h"
 #include "tests/widgets/support/page_test.h"
 #include "widgets/common/parts.h"
+#include "widgets/common/table_angle.h"
 #include "widgets/models/rows_model.h"
 #include "widgets/pages/thermal/thermal_model_page.h"
 #include "widgets/pages/thermal/warm_up_page.h"
@@ -165,10 +166,29 @@ TEST_F(VerifyPages, AnglesOfTheTableAreChosenWhereThereAreSeveral) {
                     .join(QLatin1Char(' '))
                     .contains(index == 1 ? QString::fromUtf8("table at 0°") : QString::fromUtf8("table at 90°")));
   }
+  // The table of the points is of the angle that is drawn beside it: each point was measured at one.
+  const auto listed = [&] {
+    EXPECT_TRUE(waitForJobs(*window_, 30));
+    QStringList points;
+    for (const Row& row : page->points()->rows()) points << row.id;
+    return points.join(QLatin1Char(' ')) + QLatin1Char('|') + page->pointsTitle();
+  };
+  EXPECT_EQ(listed(), QString::fromUtf8("F2|EZ at the points, table at 90°"));
+  page->angleChoice()->setCurrentIndex(1);
+  Q_EMIT page->angleChoice()->activated(1);
+  EXPECT_EQ(listed(), QString::fromUtf8("F1|EZ at the points, table at 0°"));
   page->setShown(1);
+  QComboBox* states = page->maps()->stateChoice();
+  for (const double c_deg : {0.0, 90.0}) {
+    states->setCurrentText(withTableAngle(QStringLiteral("M40"), c_deg));
+    Q_EMIT states->activated(states->currentIndex());
+    EXPECT_EQ(listed(), c_deg == 0.0 ? QString::fromUtf8("F1|EZ at the points, table at 0°")
+                                     : QString::fromUtf8("F2|EZ at the points, table at 90°"));
+  }
   EXPECT_FALSE(page->angleChoice()->isVisible()) << "the states on the table name the angle";
   page->setShown(0);
   EXPECT_TRUE(page->angleChoice()->isVisible());
+  EXPECT_EQ(listed(), QString::fromUtf8("F1|EZ at the points, table at 0°"));
   if (qEnvironmentVariableIsSet("SPINDRIFT_PICTURES"))
     window_->grab().save(qEnvironmentVariable("SPINDRIFT_PICTURES") + QStringLiteral("/verify_angles.png"));
 }
