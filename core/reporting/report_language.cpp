@@ -62,17 +62,20 @@ void replaceName(std::string& text, const std::string& name, const std::string& 
   }
 }
 
-/// The language that leaves names as they are.
+/// The language that leaves names as they are, or as the program shows them.
 ReportLanguage keeping(const ReportLanguage& language, const ReportNames& names) {
   std::vector<std::string> within = names.within;
   std::erase(within, std::string());
   // A name within another is found in what is left.
   std::stable_sort(within.begin(), within.end(),
                    [](const std::string& a, const std::string& b) { return a.size() > b.size(); });
+  std::vector<std::string> shown = within;
+  if (language.of_names) std::transform(within.begin(), within.end(), shown.begin(), language.of_names);
   std::unordered_set<std::string> whole(names.whole.begin(), names.whole.end());
   whole.erase(std::string());
   return {language.code,
-          [words = language.words, within = std::move(within), whole = std::move(whole)](const std::string& english) {
+          [words = language.words, within = std::move(within), shown = std::move(shown),
+           whole = std::move(whole)](const std::string& english) {
             if (whole.contains(english)) return english;
             static const std::string colon = ": ";
             std::size_t kept = english.size();
@@ -86,10 +89,11 @@ ReportLanguage keeping(const ReportLanguage& language, const ReportNames& names)
             for (std::size_t i = 0; i < within.size(); ++i) {
               const std::string mark = standIn(i);
               for (std::size_t at = text.find(mark); at != std::string::npos; at = text.find(mark, at))
-                text.replace(at, mark.size(), within[i]), at += within[i].size();
+                text.replace(at, mark.size(), shown[i]), at += shown[i].size();
             }
             return text + english.substr(kept);
-          }};
+          },
+          language.of_files, language.of_names};
 }
 
 struct Translation {

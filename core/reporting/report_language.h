@@ -21,13 +21,16 @@ struct ReportLanguage {
   /// A text of the reference of files, which has a catalogue of its own: single words of it mean other things
   /// elsewhere.
   std::function<std::string(std::string_view english)> of_files;
+  /// A name that `ReportNames` keeps, as the program shows it: those that its demos come with have one in every
+  /// language. Empty: as it is. Called from any thread.
+  std::function<std::string(const std::string& name)> of_names;
 };
 
 /// Nothing: English alone. Before any report is written, for the whole process.
 void offerReportLanguage(std::optional<ReportLanguage> language);
 [[nodiscard]] const std::optional<ReportLanguage>& offeredReportLanguage();
 
-/// What people wrote, which stays as it is in every language.
+/// What people wrote, which stays as it is in every language (but see ReportLanguage::of_names).
 struct ReportNames {
   std::vector<std::string> within;  ///< in the middle of texts too, as words of their own: a campaign, an operator
   std::vector<std::string> whole;   ///< whole texts, or what follows a colon: points, reasons, notes

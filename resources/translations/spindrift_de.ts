@@ -8168,7 +8168,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>{}: it has no deviation in {} there.</source>
-        <translation>{}: keine Abweichung in {} dort.</translation>
+        <translation>{}: dort keine Abweichung in {}.</translation>
     </message>
     <message>
         <source>{}: message {} came in place of {}.</source>
@@ -16893,6 +16893,11 @@ ihrem Ordner und führen nicht hinaus.
         <source>Estimating the offset of a clock</source>
         <translation>Versatz einer Uhr wird geschätzt</translation>
     </message>
+    <message>
+        <source>log</source>
+        <comment>source of times</comment>
+        <translation>Protokoll</translation>
+    </message>
 </context>
 <context>
     <name>spindrift::gui::ClosedLoopPage</name>
@@ -17999,7 +18004,7 @@ ihrem Ordner und führen nicht hinaus.
     </message>
     <message>
         <source>http://…, mqtt://… or other</source>
-        <translation>http://…, mqtt://… o. a.</translation>
+        <translation>http://…, mqtt://… u. a.</translation>
     </message>
 </context>
 <context>
@@ -19665,6 +19670,11 @@ ihrem Ordner und führen nicht hinaus.
     <message>
         <source>Reading the contrast curves</source>
         <translation>Kontrastkurven werden gelesen</translation>
+    </message>
+    <message>
+        <source>%1, %2 px</source>
+        <comment>place in an image</comment>
+        <translation>%1; %2 px</translation>
     </message>
 </context>
 <context>
@@ -26980,11 +26990,11 @@ ihrem Ordner und führen nicht hinaus.
     </message>
     <message>
         <source>Move an error of the machine and see what it does to probing points, artefacts and a milled part.</source>
-        <translation>Eine Abweichung der Maschine verstellen und sehen, was sie an Antastpunkten, Prüfkörpern und einem gefrästen Werkstück bewirkt.</translation>
+        <translation>Eine Abweichung der Maschine verstellen und sehen, was sie an Messpunkten, Prüfkörpern und einem gefrästen Werkstück bewirkt.</translation>
     </message>
     <message>
         <source>Machine with the deviations at its probing points</source>
-        <translation>Maschine mit den Abweichungen an ihren Antastpunkten</translation>
+        <translation>Maschine mit den Abweichungen an ihren Messpunkten</translation>
     </message>
     <message>
         <source>Machine</source>
@@ -27064,11 +27074,11 @@ ihrem Ordner und führen nicht hinaus.
     </message>
     <message>
         <source>Deviations at the probing points</source>
-        <translation>Abweichungen an den Antastpunkten</translation>
+        <translation>Abweichungen an den Messpunkten</translation>
     </message>
     <message>
         <source>Probing points</source>
-        <translation>Antastpunkte</translation>
+        <translation>Messpunkte</translation>
     </message>
     <message>
         <source>Artefact</source>

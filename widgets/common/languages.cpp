@@ -15,6 +15,7 @@
 
 #include "core/reporting/report_language.h"
 #include "widgets/common/core_sentence.h"
+#include "widgets/common/demo_names.h"
 
 // The catalogues lie in a static library: without this the linker leaves them out. It must stand outside of all
 // namespaces.
@@ -105,7 +106,8 @@ void applyLanguage(const QString& code) {
         now.code.toStdString(), [](const std::string& english) { return coreSentence(english).toStdString(); },
         [](std::string_view english) {
           return QCoreApplication::translate("files", std::string(english).c_str()).toStdString();
-        }};
+        },
+        [](const std::string& name) { return shownName(name).toStdString(); }};
   }
   offerReportLanguage(std::move(of_reports));
   static QObject* keys = nullptr;

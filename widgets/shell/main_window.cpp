@@ -728,8 +728,11 @@ void MainWindow::open(const QString& folder) {
 void MainWindow::startDemo(const QString& name, bool small) {
   auto place = std::make_shared<QTemporaryDir>();
   const std::filesystem::path folder = std::filesystem::path(place->path().toStdString()) / "campaign";
+  QString title = name;
+  for (const Demo& demo : demos())
+    if (demo.name == name.toStdString()) title = demo.title;
   importInBackground(
-      tr("Running the virtual machine: %1").arg(name),
+      tr("Running the virtual machine: %1").arg(title),
       [place, folder, small, demo = name.toStdString()](JobContext& job) {
         makeDemoCampaign(demo, folder, small, job);
         return folder;

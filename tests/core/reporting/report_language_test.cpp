@@ -84,6 +84,20 @@ TEST(ReportLanguage, NamesThatPeopleGaveStay) {
   EXPECT_EQ(rows[1][0].plain() + rows[1][1].plain(), "TOPMOSTNOISE HERE");
 }
 
+TEST(ReportLanguage, NamesThatTheProgramHasInTheLanguageAreShownSo) {
+  ReportLanguage language{"xx", [](const std::string& english) {
+                            return english.starts_with("Thermal errors: ") ? "Fehler: " + english.substr(16) : english;
+                          }};
+  language.of_names = [](const std::string& name) { return name == "hole bar" ? "Lochleiste" : name; };
+  Report report("Thermal errors: hole bar", "my mill");
+  report.facts({{"Campaign", "hole bar"}});
+  const Report other = inLanguage(report, language, {{"hole bar", "my mill"}, {}});
+  EXPECT_EQ(other.title(), "Fehler: Lochleiste");
+  EXPECT_THAT(htmlOf(other), HasSubstr("Lochleiste</td>"));
+  EXPECT_THAT(htmlOf(other), Not(HasSubstr("hole bar")));
+  EXPECT_THAT(htmlOf(other), HasSubstr("my mill"));
+}
+
 /// Columns are aligned by what stands in them, whatever a language makes of it.
 TEST(ReportLanguage, ColumnsKeepTheirAlignment) {
   Report report("t", "s");

@@ -285,7 +285,7 @@ void FiducialCalibratePage::showSets(const StoredEvaluation& evaluation) {
     const double y = centre["y_px"].value("value", 0.0);
     const double s = centre["x_px"].value("standard_uncertainty", 0.0);
     const QString pooling = coreSentence(pooled.value("pooling", std::string("?")));
-    centre_->set(QStringLiteral("%1, %2 px").arg(decimalText(x, 'f', 1)).arg(decimalText(y, 'f', 1)),
+    centre_->set(tr("%1, %2 px", "place in an image").arg(decimalText(x, 'f', 1)).arg(decimalText(y, 'f', 1)),
                  tr("± %1 px, %2; spindle repeats to %3 µm")
                      .arg(decimalText(s, 'f', 2))
                      .arg(pooling)

@@ -207,6 +207,7 @@ void MachinePage::refresh() {
   filling_ = true;
   name_->setText(shownName(machine.name));
   chain_->setText(QString::fromStdString(machine.chain.text()));
+  for (QLineEdit* field : {name_, chain_}) field->setCursorPosition(0);  // one that is too long shows its beginning
   axes_->setRowCount(static_cast<int>(machine.axes.size()));
   for (int row = 0; row < axes_->rowCount(); ++row) {
     const LinearAxis& axis = machine.axes[static_cast<std::size_t>(row)];
@@ -300,7 +301,7 @@ void MachinePage::showSensors() {
     const SensorReading reading = readSensor(machine.temperature_sensors, columns[static_cast<std::size_t>(row)]);
     setText(sensors_, row, 0, QString::fromStdString(reading.column));
     for (const TemperatureSensor& sensor : machine.temperature_sensors) {
-      if (sensor.name == reading.column) setText(sensors_, row, 1, QString::fromStdString(sensor.place));
+      if (sensor.name == reading.column) setText(sensors_, row, 1, coreSentence(sensor.place));
     }
     auto* role = new QComboBox;
     role->setAccessibleName(tr("Role of %1").arg(QString::fromStdString(reading.column)));

@@ -8,6 +8,7 @@
 #include <QPushButton>
 #include <QTableView>
 #include <QVBoxLayout>
+#include <algorithm>
 #include <set>
 
 #include "core/base/error.h"
@@ -76,9 +77,17 @@ ClockPanel::ClockPanel(SessionModel& session, CampaignUndo& undo, std::function<
   column->addWidget(makeTable(rows_, tr("Offsets of the clocks"), tr("No clock offset is applied.")), 1);
   connect(source_, &QComboBox::activated, this, [this](int) { refresh(); });
   connect(offset_, &QDoubleSpinBox::valueChanged, this, [this](double value) {
-    if (!filling_) change(source_->currentText().toStdString(), value, 0.0, "entered");
+    if (!filling_) change(chosenSource().toStdString(), value, 0.0, "entered");
   });
   connect(estimate_, &QPushButton::clicked, this, &ClockPanel::estimate);
+}
+
+QString ClockPanel::chosenSource() const {
+  return source_->currentData().toString();
+}
+
+QString ClockPanel::nameOf(const std::string& source) {
+  return source == "log" ? tr("log", "source of times") : fromCore(source);
 }
 
 void ClockPanel::change(const std::string& source, double offset_s, double sigma_s, const std::string& how) {
@@ -99,7 +108,7 @@ void ClockPanel::estimate() {
                                       "first (Calibrate)."));
     return;
   }
-  const std::string source = source_->currentText().toStdString();
+  const std::string source = chosenSource().toStdString();
   // What is found is relative to what is applied to log and observations already.
   const ClockOffsets now = session_.clockOffsets();
   const auto before = now.find(source);
@@ -110,9 +119,9 @@ void ClockPanel::estimate() {
            const CampaignClockOffset found = estimateFromMotion(*campaign, *set, source, longest_search_s);
            return [this, source, applied_s, found] {
              change(source, applied_s + found.offset_s, found.sigma_s, found.how);
-             message_->set(Tone::Good, tr("Offset of %1: %2.")
-                                           .arg(fromCore(source),
-                                                quantityText(applied_s + found.offset_s, found.sigma_s, tr("s"))));
+             message_->set(Tone::Good,
+                           tr("Offset of %1: %2.")
+                               .arg(nameOf(source), quantityText(applied_s + found.offset_s, found.sigma_s, tr("s"))));
            };
          } catch (const InputError& e) {
            return [this, sentence = coreSentence(e.what())] { message_->set(Tone::Attention, sentence); };
@@ -128,20 +137,20 @@ void ClockPanel::refresh() {
   if (const auto set = session_.observations())
     for (const Observation& o : set->rows)
       if (!o.instrument.empty()) sources.insert(o.instrument);
-  const QString chosen = source_->currentText();
+  const QString chosen = chosenSource();
   source_->clear();
-  for (const std::string& s : sources) source_->addItem(fromCore(s));
-  if (source_->findText(chosen) >= 0) source_->setCurrentText(chosen);
+  for (const std::string& s : sources) source_->addItem(nameOf(s), fromCore(s));
+  source_->setCurrentIndex(std::max(source_->findData(chosen), source_->count() > 0 ? 0 : -1));
   const ClockOffsets now = session_.clockOffsets();
-  const auto found = now.find(source_->currentText().toStdString());
+  const auto found = now.find(chosenSource().toStdString());
   offset_->setValue(found == now.end() ? 0.0 : found->second.offset_s);
   offset_->setEnabled(source_->count() > 0);
-  estimate_->setEnabled(source_->count() > 0 && source_->currentText() != QLatin1String("log"));
+  estimate_->setEnabled(source_->count() > 0 && chosenSource() != QLatin1String("log"));
   std::vector<Row> rows;
   for (const auto& [source, o] : now) {
     Row row;
     row.id = fromCore(source);
-    row.cells = {nameCell(row.id),
+    row.cells = {nameCell(nameOf(source)),
                  Cell{o.sigma_s > 0.0 ? quantityText(o.offset_s, o.sigma_s, tr("s"))
                                       : QStringLiteral("%1 s").arg(decimalText(o.offset_s, 'f', 2))},
                  Cell{coreSentence(o.how)}};

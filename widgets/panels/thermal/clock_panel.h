@@ -34,6 +34,8 @@ class ClockPanel : public QWidget {
   [[nodiscard]] Callout* message() const { return message_; }
 
  private:
+  [[nodiscard]] QString chosenSource() const;  ///< as the session names it
+  [[nodiscard]] static QString nameOf(const std::string& source);
   void change(const std::string& source, double offset_s, double sigma_s, const std::string& how);
 
   SessionModel& session_;
