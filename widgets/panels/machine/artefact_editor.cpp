@@ -69,6 +69,8 @@ ArtefactEditor::ArtefactEditor(PageContext page_context, QWidget* parent)
   left->body()->addLayout(head);
   fields_ = new ArtefactFields;
   form_ = makeScrolling(fields_);
+  // Below one another on a page that scrolls, each card has the least it asks for: four lines of fields.
+  form_->setMinimumHeight(4 * (sizes::control_height + 8));
   left->body()->addWidget(form_, 1);
   none_ = makeLabel(tr("Add a hole bar or balls, and type their certificate."), "secondaryText");
   none_->setWordWrap(true);
