@@ -107,10 +107,22 @@ std::string safeName(const std::string& name) {
   return safe;
 }
 
+/// Throws InputError where the campaign is gone. Its folder is not made anew: a disk that was pulled out would leave
+/// captures in a folder of its name that nobody looks into.
+void requireInPlace(const IncomingContext& context) {
+  std::error_code error;
+  if (std::filesystem::exists(context.campaignFolder() / "campaign.json", error)) return;
+  throw InputError(
+      {context.campaignFolder(), ""},
+      "is not there any more (removed, renamed, or its disk or network folder is gone). Nothing was stored; "
+      "bring the folder back, and what has arrived meanwhile is stored.");
+}
+
 /// Copies into the campaign unless it is there already. Another file of that name and hash, as far as the name carries
 /// it, keeps its place.
 void keep(const IncomingContext& context, IncomingItem& item, const std::string& folder, const std::string& stem,
           const std::string& ending, const std::string& bytes) {
+  requireInPlace(context);
   for (const std::string& digits : {shortHash(item.hash), item.hash}) {
     item.stored = fmt::format("captures/{}/{}_{}{}", folder, stem, digits, ending);
     const std::filesystem::path target = context.campaignFolder() / item.stored;
@@ -510,6 +522,7 @@ ExaminedFile examineTouches(const std::filesystem::path& file, const std::string
   out.item.time_s = secondsSinceStart(written_ns, context);
   out.item.state = IncomingState::Accepted;
   out.item.stored = copyOfTouches(name);
+  requireInPlace(context);
   const std::filesystem::path copy = context.campaignFolder() / out.item.stored;
   std::error_code error;
   if (out.from > 0 && std::filesystem::file_size(copy, error) == out.from && !error) {
@@ -652,10 +665,12 @@ std::optional<IncomingFolder::Task> IncomingFolder::next() {
 const IncomingItem& IncomingFolder::finish(const Task& task, ExaminedFile examined, double now_s) {
   IncomingItem& item = items_[indexOf(task.name)];
   item = std::move(examined.item);
-  const bool again = examined.unreadable && !task.last_chance;
-  if (again) {
+  // It could not be stored: it lies where it came from, and is examined as often as that takes.
+  const bool put_off = item.state == IncomingState::Waiting;
+  const bool again = examined.unreadable && !task.last_chance && !put_off;
+  if (again || put_off) {
     Task once_more = task;
-    once_more.last_chance = true;
+    once_more.last_chance = task.last_chance || again;
     again_[task.name] = {now_s + patience_s_, once_more};
   }
   set(task.name, again ? IncomingState::Waiting : item.state,

@@ -168,7 +168,8 @@ class IncomingFolder {
   /// Looks at the folder; returns true if the list changed.
   bool look(double now_s);
   [[nodiscard]] std::optional<Task> next();
-  /// The answer to a task. Returns the item as it now stands in the list.
+  /// The answer to a task. Returns the item as it now stands in the list. An item that still waits could not be stored:
+  /// it is examined again after the patience.
   const IncomingItem& finish(const Task& task, ExaminedFile examined, double now_s);
   [[nodiscard]] const std::vector<IncomingItem>& items() const { return items_; }
   /// Indices of the items that are not decided yet.

@@ -11828,6 +11828,10 @@ endgültig fehlgeschlagen: {}</translation>
         <source>± is {:g} % of the simulated change</source>
         <translation>± ist {:g} % der simulierten Änderung</translation>
     </message>
+    <message>
+        <source>is not there any more (removed, renamed, or its disk or network folder is gone). Nothing was stored; bring the folder back, and what has arrived meanwhile is stored.</source>
+        <translation>ist nicht mehr vorhanden (entfernt, umbenannt, oder der Datenträger oder Netzwerkordner fehlt). Nichts wurde gespeichert; den Ordner zurückholen, dann wird gespeichert, was inzwischen eingetroffen ist.</translation>
+    </message>
 </context>
 <context>
     <name>files</name>

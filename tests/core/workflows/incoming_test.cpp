@@ -8,6 +8,8 @@
 #include <gtest/gtest.h>
 #include <sqlite3.h>
 
+#include <functional>
+
 #include "core/base/atomic_file.h"
 #include "core/base/error.h"
 #include "core/base/sha256.h"
@@ -323,6 +325,56 @@ TEST_F(Incoming, AVanishedFolderIsASentenceAndCapturingGoesOn) {
   pass(3.0);
   EXPECT_TRUE(incoming_.problem().empty());
   EXPECT_EQ(item("a.png").state, IncomingState::Accepted);
+}
+
+TEST_F(Incoming, AVanishedCampaignIsNotMadeAnewAndNothingIsLost) {
+  plan(PlannedKind::Image);
+  const Campaign before = campaign();
+  const auto context = intake_.context(before, storedPlan(session_, id_));
+  const std::string touches = "time_s,cycle,artefact,feature,touch,x_mm,y_mm,z_mm,nx,ny,nz\n";
+  put("a.png", imageBytes(14));
+  put("touches.csv", touches);
+  std::filesystem::rename(folder_ / "session", folder_ / "away");  // a disk that was pulled out
+  const auto refused = [&](const std::function<ExaminedFile()>& examine) {
+    try {
+      (void)examine();
+      ADD_FAILURE() << "it was stored nowhere";
+    } catch (const InputError& e) {
+      EXPECT_NE(std::string(e.what()).find("is not there any more"), std::string::npos) << e.what();
+      EXPECT_NE(std::string(e.what()).find(before.folder.string()), std::string::npos) << e.what();
+    }
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "session"));
+  };
+  for (const char* name : {"a.png", "touches.csv"})
+    refused([&] { return examineArrival(folder_ / "watched" / name, name, 0, *context); });
+  refused([&] { return examineImage(imageBytes(15), "picture 1", 0, *context); });
+  // The mount point of a disk stays behind as an empty folder.
+  std::filesystem::create_directories(before.folder);
+  EXPECT_THROW((void)examineArrival(folder_ / "watched/a.png", "a.png", 0, *context), InputError);
+  EXPECT_TRUE(std::filesystem::is_empty(before.folder));
+  std::filesystem::remove_all(folder_ / "session");
+
+  (void)incoming_.look(now_);
+  (void)incoming_.look(now_ += 2.0);
+  for (int time = 0; time < 3; ++time) {  // as often as it takes
+    int put_off = 0;
+    while (const auto task = incoming_.next()) {
+      ExaminedFile not_stored;
+      not_stored.item.name = task->name;
+      not_stored.item.sentence = "the folder is gone.";
+      const IncomingItem& item = incoming_.finish(*task, not_stored, now_);
+      EXPECT_EQ(item.state, IncomingState::Waiting);
+      EXPECT_EQ(item.sentence, "the folder is gone.");
+      ++put_off;
+    }
+    EXPECT_EQ(put_off, 2) << time;
+    EXPECT_FALSE(incoming_.idle());
+    (void)incoming_.look(now_ += 5.0);
+  }
+  std::filesystem::rename(folder_ / "away", folder_ / "session");
+  pass(1.0);
+  EXPECT_EQ(item("a.png").state, IncomingState::Accepted) << item("a.png").sentence;
+  EXPECT_EQ(images().size(), 1U);
 }
 
 TEST_F(Incoming, ScansAreCompleteOrTakenAgain) {

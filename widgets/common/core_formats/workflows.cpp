@@ -310,6 +310,7 @@ std::span<const char* const> spindrift::gui::core_formats::workflows() noexcept 
     QT_TRANSLATE_NOOP("core", "is missing, so there is no clock to compare with."),
     QT_TRANSLATE_NOOP("core", "is not a folder; allowed: the folder into which the instrument writes."),
     QT_TRANSLATE_NOOP("core", "is not empty; allowed: a new folder for the simulation's new version."),
+    QT_TRANSLATE_NOOP("core", "is not there any more (removed, renamed, or its disk or network folder is gone). Nothing was stored; bring the folder back, and what has arrived meanwhile is stored."),
     QT_TRANSLATE_NOOP("core", "is not there; allowed: a list of images."),
     QT_TRANSLATE_NOOP("core", "is there and not empty; allowed: a new folder."),
     QT_TRANSLATE_NOOP("core", "its part of the prediction is {:.2g} rms; {}"),
