@@ -71,10 +71,7 @@ ReportTask ReportTask::of(const TaskGraph& graph, const ExcludedItems& excluded)
   task.name = fmt::format("reports/report-{}", id);
 
   const ReportTaskOptions asked = ReportTaskOptions::of(session, id);
-  auto campaign = std::make_shared<Campaign>(*withoutExcluded(graph.data(), excluded));
-  if (campaign->observations)
-    campaign->observations = observationsToFit(graph.data(), nullptr, excluded, clockOffsetsOf(session, id));
-  task.campaign = asked.effects.applied(std::move(campaign), EffectOptions::file(session, id));
+  task.campaign = asked.effects.applied(withoutExcluded(graph.data(), excluded), EffectOptions::file(session, id));
 
   task.options.operator_name = asked.operator_name;
   task.options.discrepancy = asked.tells_discrepancy;
@@ -131,7 +128,12 @@ ReportNames ReportTask::namesThatPeopleGave() const {
 
 WrittenReport ReportTask::run(JobContext& job) const {
   JobContext computing = job.part(0.0, 0.8);
-  const Report report = reportOfCampaign(*campaign, options, computing);
+  // What was excluded of its own observations is marked here: where the session lives nobody waits for it.
+  Campaign marked = *campaign;
+  if (marked.observations)
+    marked.observations =
+        observationsToFit(*campaign, nullptr, {options.exclusions.begin(), options.exclusions.end()}, {});
+  const Report report = reportOfCampaign(marked, options, computing);
   const std::optional<ReportLanguage>& language = offeredReportLanguage();
   const auto ending = [&](bool translated) { return translated ? "." + language->code : std::string(); };
   std::vector<std::pair<std::string, std::string>> files;  // all are made before the first is written

@@ -34,7 +34,8 @@ struct WrittenReport {
 
 /// Everything a report is made of, copied: to be worked on by any thread.
 struct ReportTask {
-  std::shared_ptr<const Campaign> campaign;  ///< with the effects as edited; what was excluded is marked
+  /// With the effects as edited and the captures that were excluded; `run` marks what was of its own observations.
+  std::shared_ptr<const Campaign> campaign;
   ReportOptions options;
   std::filesystem::path folder;  ///< of the session
   std::string name;              ///< of the files in it, without their ending
