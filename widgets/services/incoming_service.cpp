@@ -36,7 +36,6 @@ IncomingService::IncomingService(SessionModel& session) : QObject(&session), ses
   connect(&timer_, &QTimer::timeout, this, &IncomingService::look);
   connect(&session_, &SessionModel::campaignLeaving, this, [this] {
     const QString lost = finishPictures();
-    taken_.clear();
     if (!lost.isEmpty()) Q_EMIT session_.storingFailed(lost);
   });
   connect(&session_, &SessionModel::campaignChanged, this, &IncomingService::follow);
@@ -72,9 +71,12 @@ void IncomingService::follow() {
   thumbnails_.clear();
   pictured_.clear();
   failure_.clear();
+  unstored_touches_.clear();  // they are in the files that they came from
   plan_.reset();
   const bool there = session_.session() != nullptr && session_.campaign() != nullptr;
   intake_ = there ? CaptureIntake(incomingJournal(*session_.session(), campaign_)) : CaptureIntake();
+  for (const Taken& taken : taken_)
+    if (taken.context->campaignFolder() == campaign_folder_) examinePicture(taken);
   Q_EMIT changed();
   Q_EMIT planProgressed();
 }
@@ -107,6 +109,7 @@ QString IncomingService::start(const QString& folder, const QString& template_fi
       pattern->requireFormat("spindrift-printed-text", 1);
     }
     intake_.expectTouches(*session_.campaign(), std::move(pattern));
+    unstored_touches_.clear();  // they are read again
   } catch (const InputError& e) {
     return coreSentence(e.what());
   }
@@ -181,6 +184,7 @@ void IncomingService::look() {
   const QString before = problem();
   const bool news = folder_->look(now());
   for (const std::size_t i : folder_->waiting()) intake_.show(folder_->items()[i]);
+  if (!unstored_touches_.empty()) flushTouches(false);
   if (news || before != problem()) Q_EMIT changed();
   examineNext();
 }
@@ -201,13 +205,23 @@ void IncomingService::examineNext() {
       if (folder == campaign_folder_) finished(task, std::move(*examined), picture);
     });
   };
-  job.failed = [this](const QString& sentence) {
+  job.failed = [this, task = *task, folder = campaign_folder_](const QString& sentence) {
     examining_ = false;
+    if (folder != campaign_folder_) return;
     failure_ = sentence;
+    putOff(task);
     Q_EMIT changed();
   };
   job.cancelled = [this] { examining_ = false; };
   jobs_.run(std::move(job));
+}
+
+void IncomingService::putOff(const IncomingFolder::Task& task) {
+  if (folder_ == nullptr) return;
+  ExaminedFile not_stored;
+  not_stored.item.name = task.name;
+  not_stored.item.sentence = failure_.toStdString();
+  intake_.show(folder_->finish(task, std::move(not_stored), now()));
 }
 
 void IncomingService::finished(const IncomingFolder::Task& task, ExaminedFile examined, const QImage& picture) {
@@ -224,7 +238,7 @@ void IncomingService::finished(const IncomingFolder::Task& task, ExaminedFile ex
   if (item.state != IncomingState::Waiting) {
     ExaminedFile answer = kept;
     answer.item = shown;
-    record(answer);
+    if (!record(answer)) putOff(task);
   }
   Q_EMIT changed();
   examineNext();
@@ -275,12 +289,14 @@ void IncomingService::feed(const ExaminedFile& examined) {
 }
 
 void IncomingService::flushTouches(bool all) {
+  std::vector<Touch>& touches = unstored_touches_;
+  for (Touch& touch : intake_.takeFinished(all)) touches.push_back(std::move(touch));
+  if (touches.empty()) return;
   try {
-    const std::vector<Touch> touches = intake_.takeFinished(all);
-    if (touches.empty()) return;
     ++generation_;
     session_.addCaptureRows("touches.csv", TouchFeed::header(), TouchFeed::rowsOf(touches));
-    intake_.remember(touches);
+    intake_.remember(std::exchange(touches, {}));
+    failure_.clear();
     Q_EMIT planProgressed();
   } catch (const InputError& e) {
     failure_ = coreSentence(e.what());
@@ -297,43 +313,68 @@ void IncomingService::take(const QString& name, std::shared_ptr<const GrayImage>
   } while (intake_.knows(id));
   const std::int64_t written_ns = QDateTime::currentMSecsSinceEpoch() * 1'000'000;
   taken_.push_back({id, image, written_ns, contextNow()});
+  examinePicture(taken_.back());
+}
+
+std::vector<IncomingService::Taken>::iterator IncomingService::pictureOfCampaign(const std::string& id) {
+  return std::find_if(taken_.begin(), taken_.end(),
+                      [&](const Taken& t) { return t.id == id && t.context->campaignFolder() == campaign_folder_; });
+}
+
+void IncomingService::examinePicture(const Taken& taken) {
   Job job;
   job.title = tr("Checking the picture");
   job.quiet = true;
-  job.work = [this, id, image, written_ns, context = contextNow(), folder = campaign_folder_](JobContext&) {
-    auto examined = std::make_shared<ExaminedFile>(examineImage(encodePng(*image), id, written_ns, *context));
-    const QImage picture = toImage(*image).scaled(128, 72, Qt::KeepAspectRatio, Qt::SmoothTransformation);
-    return std::function<void()>([this, id, examined, picture, folder] {
-      const auto waiting = std::find_if(taken_.begin(), taken_.end(), [&](const Taken& t) { return t.id == id; });
-      if (folder != campaign_folder_ || waiting == taken_.end()) return;  // recorded when the campaign was left
-      taken_.erase(waiting);
+  job.work = [this, taken](JobContext&) {
+    auto examined = std::make_shared<ExaminedFile>(
+        examineImage(encodePng(*taken.image), taken.id, taken.written_ns, *taken.context));
+    const QImage picture = toImage(*taken.image).scaled(128, 72, Qt::KeepAspectRatio, Qt::SmoothTransformation);
+    return std::function<void()>([this, id = taken.id, examined, picture] {
+      if (pictureOfCampaign(id) == taken_.end()) return;  // recorded when the campaign was left
       keepPicture(id, picture);
       intake_.show(examined->item);
-      record(*examined);
+      if (record(*examined))
+        taken_.erase(pictureOfCampaign(id));
+      else
+        examineLater(id);
       Q_EMIT changed();
     });
   };
-  job.failed = [this](const QString& sentence) {
+  job.failed = [this, id = taken.id](const QString& sentence) {
+    if (pictureOfCampaign(id) == taken_.end()) return;
     failure_ = sentence;
+    examineLater(id);
     Q_EMIT changed();
   };
   jobs_.run(std::move(job));
 }
 
+void IncomingService::examineLater(const std::string& picture) {
+  QTimer::singleShot(static_cast<int>(1e3 * patience_s_), this, [this, picture] {
+    if (const auto waiting = pictureOfCampaign(picture); waiting != taken_.end()) examinePicture(*waiting);
+  });
+}
+
 /// A picture is nowhere but in memory until it is recorded.
 QString IncomingService::finishPictures() {
   if (session_.campaign() == nullptr) return {};
-  QString why;
   for (Taken& t : std::exchange(taken_, {})) {
-    const ExaminedFile examined = examineImage(encodePng(*t.image), t.id, t.written_ns, *t.context);
-    intake_.show(examined.item);
-    if (record(examined)) continue;
-    why = failure_;
+    // Those of a campaign that is not at hand wait until it is.
+    if (t.context->campaignFolder() == campaign_folder_) {
+      try {
+        const ExaminedFile examined = examineImage(encodePng(*t.image), t.id, t.written_ns, *t.context);
+        intake_.show(examined.item);
+        if (record(examined)) continue;
+      } catch (const InputError& e) {
+        failure_ = coreSentence(e.what());
+      }
+      t.why_not = failure_;
+    }
     taken_.push_back(std::move(t));
   }
   if (taken_.empty()) return {};
   Q_EMIT changed();
-  return tr("Pictures of the camera that cannot be stored: %1. %2").arg(taken_.size()).arg(why);
+  return tr("Pictures of the camera that cannot be stored: %1. %2").arg(taken_.size()).arg(taken_.back().why_not);
 }
 
 void IncomingService::takeFiles(const QStringList& files, std::function<void(const std::vector<IncomingItem>&)> done) {
@@ -366,9 +407,14 @@ void IncomingService::takeNext() {
       keepPicture(examined->item.name, picture);
       ExaminedFile answer = *examined;
       answer.item = intake_.show(examined->item);
-      record(answer);
+      IncomingItem told = examined->item;  // "there already", where the list keeps its first answer
+      if (!record(answer)) {
+        told.state = IncomingState::Ignored;
+        told.sentence = failure_.toStdString();
+        intake_.show(told);
+      }
       Q_EMIT changed();
-      answerHanded(examined->item);  // "there already", where the list keeps its first answer
+      answerHanded(std::move(told));
     });
   };
   job.failed = [this, name = file.fileName().toStdString(), folder = campaign_folder_](const QString& sentence) {

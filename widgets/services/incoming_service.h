@@ -48,7 +48,7 @@ class IncomingService : public QObject {
   /// A picture of a camera, checked and taken over like a file.
   void take(const QString& name, std::shared_ptr<const GrayImage> image);
   /// Records what `take` was given and has not got to yet: before the campaign is left, or the program. What cannot be
-  /// recorded stays in memory, and one sentence says so; empty: nothing is left.
+  /// recorded stays in memory until its campaign is at hand again, and one sentence says so; empty: nothing is left.
   QString finishPictures();
   /// Files that were given by hand, one after the other: checked, copied and taken over as those that arrive in the
   /// watched folder. `done` gets what became of each, also when another campaign is chosen meanwhile: those that were
@@ -92,7 +92,10 @@ class IncomingService : public QObject {
   bool record(const ExaminedFile& found);
   void keepPicture(const std::string& name, const QImage& picture);
   void feed(const ExaminedFile& examined);
+  /// What cannot be stored is kept for the next time.
   void flushTouches(bool all);
+  /// Examines it again a moment later, as it could not be stored: `failure_` says why.
+  void putOff(const IncomingFolder::Task& task);
   [[nodiscard]] std::shared_ptr<const IncomingContext> contextNow();
   [[nodiscard]] const PlanCaptures& captures();
   [[nodiscard]] std::string key(const char* what) const;
@@ -113,8 +116,14 @@ class IncomingService : public QObject {
     std::shared_ptr<const GrayImage> image;
     std::int64_t written_ns = 0;
     std::shared_ptr<const IncomingContext> context;
+    QString why_not = {};  ///< why it could not be recorded when its campaign was left
   };
-  std::vector<Taken> taken_;  ///< pictures that are being looked at
+  void examinePicture(const Taken& taken);
+  void examineLater(const std::string& picture);
+  [[nodiscard]] std::vector<Taken>::iterator pictureOfCampaign(const std::string& id);
+
+  std::vector<Taken> taken_;             ///< pictures that are in memory alone, of other campaigns too
+  std::vector<Touch> unstored_touches_;  ///< ready for touches.csv, which could not be written
   bool examining_ = false;
   std::deque<Handed> handed_;
   bool looking_ = false;  ///< at one of them

@@ -135,6 +135,34 @@ TEST_F(CapturePages, APictureThatCannotBeStoredIsSaid) {
   EXPECT_FALSE(service().problem().isEmpty());
 }
 
+TEST_F(CapturePages, WhatArrivesWhileTheFolderIsGoneIsStoredWhenItIsBack) {
+  newMeasurement(mill_text);
+  auto* page = go<NewCapturePage>(StepId::Capture);
+  ASSERT_NE(page, nullptr);
+  page->setInstrument(Instrument::Microscope);
+  page->arriving()->plan()->makePlan();
+  ASSERT_TRUE(service().start(watched()).isEmpty());
+  std::filesystem::rename(folder_ / "session", folder_ / "away");  // a disk that was pulled out
+  put("M0_F1_rotation_0.png", encodePng(picture(2)));
+  service().take(QStringLiteral("picture"), std::make_shared<const GrayImage>(picture(3, 1.0, 90.0)));
+  waitFor([&] { return service().problem().contains(QStringLiteral("is not there any more")); }, "it is said");
+  waitFor([&] { return !service().items().empty(); }, "the file is listed");
+  QTest::qWait(1200);  // it is tried again meanwhile
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "session")) << "nothing is stored in a folder that was made anew";
+  EXPECT_EQ(stateOf("M0_F1_rotation_0.png"), IncomingState::Waiting);
+  EXPECT_TRUE(service().done().empty());
+  std::filesystem::rename(folder_ / "away", folder_ / "session");
+  const auto journal = [&] { return incomingJournal(*window_->session().session(), window_->session().campaignId()); };
+  waitFor([&] { return journal().size() == 2; }, "both are stored");
+  waitFor([&] { return service().idle(); }, "nothing waits");
+  for (const IncomingItem& item : journal()) {
+    EXPECT_NE(item.state, IncomingState::Waiting) << item.name;
+    EXPECT_TRUE(std::filesystem::exists(window_->session().campaign()->path(item.stored))) << item.name;
+  }
+  EXPECT_FALSE(service().done().empty());
+  EXPECT_TRUE(service().problem().isEmpty()) << service().problem().toStdString();
+}
+
 TEST_F(CapturePages, ANewFiducialMeasurementFillsFromAWatchedFolder) {
   newMeasurement(mill_text);
   auto* page = go<NewCapturePage>(StepId::Capture);
