@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// OpenCV's readers and writers of image files and videos, loaded when the first of them is used.
+// OpenCV's readers and writers of image files and readers of videos, loaded when the first of them is used.
 #pragma once
 
 #include <memory>
@@ -9,7 +9,6 @@
 namespace cv {
 class Mat;
 class VideoCapture;
-class VideoWriter;
 }  // namespace cv
 
 namespace spindrift {
@@ -22,9 +21,6 @@ struct ImageFiles {
   cv::Mat (*decode)(const cv::Mat& bytes, int flags);
   cv::Mat (*read)(const std::string& file, int flags);
   std::unique_ptr<cv::VideoCapture> (*capture)();
-  /// Motion JPEG in an .avi of pictures in colour; null where it cannot be written.
-  std::unique_ptr<cv::VideoWriter> (*writer)(const std::string& file, double frames_per_second, int width_px,
-                                             int height_px);
 };
 
 /// InputError where the installation lacks it.

@@ -24,16 +24,9 @@ std::unique_ptr<cv::VideoCapture> capture() {
   return std::make_unique<cv::VideoCapture>();
 }
 
-std::unique_ptr<cv::VideoWriter> writer(const std::string& file, double frames_per_second, int width_px,
-                                        int height_px) {
-  auto out = std::make_unique<cv::VideoWriter>(file, cv::CAP_OPENCV_MJPEG, cv::VideoWriter::fourcc('M', 'J', 'P', 'G'),
-                                               frames_per_second, cv::Size(width_px, height_px), true);
-  return out->isOpened() ? std::move(out) : nullptr;
-}
-
 }  // namespace
 
 extern "C" {
 extern __attribute__((visibility("default"))) const spindrift::ImageFiles spindrift_image_files;
-const spindrift::ImageFiles spindrift_image_files{encode, decode, read, capture, writer};
+const spindrift::ImageFiles spindrift_image_files{encode, decode, read, capture};
 }

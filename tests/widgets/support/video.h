@@ -2,7 +2,6 @@
 // A camera for tests: a file of the pictures it sees.
 #pragma once
 
-#include <memory>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 #include <opencv2/videoio.hpp>
@@ -11,7 +10,6 @@
 
 #include "core/base/error.h"
 #include "core/imaging/image.h"
-#include "core/imaging/image_files.h"
 
 namespace spindrift {
 
@@ -19,13 +17,13 @@ namespace spindrift {
 inline void writeVideo(const std::string& file, const std::vector<GrayImage>& images, double frames_per_second) {
   if (images.empty()) throw InputError({file, ""}, "cannot be written: no images.");
   const cv::Size size(images.front().width(), images.front().height());
-  std::unique_ptr<cv::VideoWriter> writer;
+  cv::VideoWriter writer;
   try {
-    writer = imageFiles().writer(file, frames_per_second, size.width, size.height);
+    (void)writer.open(file, cv::CAP_OPENCV_MJPEG, cv::VideoWriter::fourcc('M', 'J', 'P', 'G'), frames_per_second, size);
   } catch (const cv::Exception&) {
     throw InputError({file, ""}, "cannot be written as a video.");
   }
-  if (writer == nullptr) throw InputError({file, ""}, "cannot be written as a video; allowed: a name ending in .avi.");
+  if (!writer.isOpened()) throw InputError({file, ""}, "cannot be written as a video; allowed: a name ending in .avi.");
   for (const GrayImage& image : images) {
     if (image.width() != size.width || image.height() != size.height) {
       throw InputError({file, ""}, "cannot be written: the images differ in size.");
@@ -33,7 +31,7 @@ inline void writeVideo(const std::string& file, const std::vector<GrayImage>& im
     const cv::Mat grey(size, CV_8UC1, const_cast<std::uint8_t*>(image.data()));
     cv::Mat colour;
     cv::cvtColor(grey, colour, cv::COLOR_GRAY2BGR);
-    writer->write(colour);
+    writer.write(colour);
   }
 }
 
