@@ -23,15 +23,29 @@ std::vector<std::string> changesOf(const TaskGraph& tasks) {
   return changed;
 }
 
-void readReview(const TaskGraph& tasks, const TaskInputs& inputs, ReviewSource& source) {
-  source.campaign = withoutExcluded(*inputs.campaign, inputs.excluded);
-  source.observations = inputs.observations;
+void readReview(const TaskGraph& tasks, const Campaign& campaign, const ExcludedItems& excluded, ReviewSource& source) {
+  source.campaign = withoutExcluded(campaign, excluded);
   source.changed = changesOf(tasks);
   if (const StoredResult* story = tasks.latest("discrepancy"))
     source.discrepancy = std::make_shared<const nlohmann::json>(story->payload);
 }
 
 }  // namespace
+
+ReviewChoices ReviewChoices::of(const ObservationSet& observations) {
+  ReviewChoices choices{observations.states(), tableAngles(observations), {}};
+  for (const Observation& o : observations.rows) choices.extent_mm.extend(o.position_mm.head<2>());
+  return choices;
+}
+
+ReadForReview ReadForReview::read(const CampaignSource& source, JobContext& job) {
+  ReadForReview read{CampaignState::read(source, job), {}, {}};
+  if (read.state.campaign == nullptr) return read;
+  read.observations = {read.state.campaign, read.state.campaign->observations ? nullptr : read.state.readEvaluation(),
+                       read.state.excluded, source.edits.clocks};
+  if (read.observations) read.choices = ReviewChoices::of(*read.observations);
+  return read;
+}
 
 const ReviewPrediction& ReviewSource::simulation() const {
   std::call_once(simulated_, [this] { simulation_ = reviewSimulation(*campaign, *observations); });
@@ -68,10 +82,10 @@ ReviewSources::Version ReviewSources::versionOf(std::int64_t id) const {
   return now;
 }
 
-std::shared_ptr<const CampaignState> ReviewSources::stateOf(std::int64_t id) {
+std::shared_ptr<const ReadForReview> ReviewSources::readOf(std::int64_t id) {
   Version now = versionOf(id);
   if (const auto known = others_.find(id); known != others_.end() && known->second.version == now)
-    return known->second.state;
+    return known->second.read;
   others_[id] = {std::move(now), true, nullptr};
   read_in_background_(id, shownName(session_.session()->campaign(id).name),
                       CampaignSource::of(*session_.session(), id));
@@ -79,16 +93,17 @@ std::shared_ptr<const CampaignState> ReviewSources::stateOf(std::int64_t id) {
 }
 
 bool ReviewSources::reading(std::int64_t id) const {
+  if (id == session_.campaignId()) return choices_.busy();
   const auto known = others_.find(id);
-  return id != session_.campaignId() && known != others_.end() && known->second.reading;
+  return known != others_.end() && known->second.reading;
 }
 
-void ReviewSources::take(std::int64_t id, std::shared_ptr<const CampaignState> state) {
+void ReviewSources::take(std::int64_t id, std::shared_ptr<const ReadForReview> read) {
   read_.erase(id);
   const auto known = others_.find(id);
   if (known == others_.end()) return;
   known->second.reading = false;
-  known->second.state = std::move(state);
+  known->second.read = std::move(read);
 }
 
 std::vector<std::pair<std::int64_t, QString>> ReviewSources::campaigns() const {
@@ -103,21 +118,25 @@ std::shared_ptr<const ReviewSource> ReviewSources::source(std::int64_t id) {
   auto source = std::make_shared<ReviewSource>();
   try {
     if (id == session_.campaignId()) {
-      readReview(session_.tasks(), session_.taskInputs(), *source);
+      source->observations = session_.observations();
+      if (source->observations) {
+        const auto choices = choices_.ask(source->observations, {}, &ReviewChoices::of);
+        if (choices == nullptr) return nullptr;
+        source->choices = *choices;
+      }
+      readReview(session_.tasks(), *session_.campaign(), session_.excludedItems(), *source);
     } else {
-      const std::shared_ptr<const CampaignState> state = stateOf(id);
-      if (state == nullptr) return nullptr;
+      const std::shared_ptr<const ReadForReview> read = readOf(id);
+      if (read == nullptr) return nullptr;
+      source->observations = read->observations;
+      source->choices = read->choices;
       const TaskLedger nothing_runs;
-      const TaskGraph tasks = state->tasks(*session_.session(), nothing_runs);
-      readReview(tasks, TaskInputs::of(tasks, *state), *source);
+      readReview(read->state.tasks(*session_.session(), nothing_runs), *read->state.campaign, read->state.excluded,
+                 *source);
     }
     source->id = id;
     source->fit = chosen<NineParameterChoice>(*session_.session(), id).options();
     source->name = shownName(source->campaign->name);
-    if (source->observations) {
-      source->states = source->observations->states();
-      source->angles_deg = tableAngles(*source->observations);
-    }
     if (source->campaign->captureList("scans.csv")) source->scans = readScanList(*source->campaign);
   } catch (const InputError&) {
     source.reset();

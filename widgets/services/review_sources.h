@@ -2,6 +2,7 @@
 // The campaigns of a session as a review sees them: observations with what the user took out, machine, scans.
 #pragma once
 
+#include <Eigen/Geometry>
 #include <QString>
 #include <functional>
 #include <map>
@@ -17,17 +18,26 @@
 #include "core/tasks/campaign_state.h"
 #include "core/workflows/review_workflow.h"
 #include "widgets/models/session_model.h"
+#include "widgets/services/from_observations.h"
 
 namespace spindrift::gui {
+
+/// What can be chosen to be seen of observations.
+struct ReviewChoices {
+  std::vector<std::string> states;  ///< in order; the first is the reference
+  std::vector<double> angles_deg;   ///< of the table, ascending
+  Eigen::AlignedBox2d extent_mm;    ///< of the points, X and Y
+
+  [[nodiscard]] static ReviewChoices of(const ObservationSet& observations);
+};
 
 struct ReviewSource {
   std::int64_t id = 0;
   QString name;
   std::shared_ptr<const Campaign> campaign;
-  ObservationsToFit observations;   ///< null without any
-  std::vector<std::string> states;  ///< in order; the first is the reference
-  std::vector<double> angles_deg;   ///< of the table, ascending
-  std::vector<ScanCapture> scans;   ///< empty without a profiler
+  ObservationsToFit observations;  ///< null without any
+  ReviewChoices choices;           ///< of them
+  std::vector<ScanCapture> scans;  ///< empty without a profiler
   /// The stored search for what the simulation lacks; null if there was none.
   std::shared_ptr<const nlohmann::json> discrepancy;
   NineParameterOptions fit;  ///< as chosen on the page Model of that campaign
@@ -43,21 +53,32 @@ struct ReviewSource {
   mutable ReviewPrediction simulation_, completed_;
 };
 
-/// The campaign at hand is there at once. Another one is read by a job that its owner starts: until `take` got what was
-/// read, it has no source.
+/// A campaign that is not at hand, as a review needs it.
+struct ReadForReview {
+  CampaignState state;
+  ObservationsToFit observations;
+  ReviewChoices choices;
+
+  /// Any thread. Throws InputError, Cancelled.
+  [[nodiscard]] static ReadForReview read(const CampaignSource& source, JobContext& job);
+};
+
+/// The observations of the campaign at hand are looked through on a thread of their own, and another campaign is read
+/// by a job that its owner starts: until that is done, and `take` got what was read, they have no source.
 class ReviewSources {
  public:
   /// Reads a campaign in the background, and gives what was read to `take`, null where it could not be read.
   using ReadInBackground = std::function<void(std::int64_t id, const QString& name, CampaignSource source)>;
-  ReviewSources(SessionModel& session, ReadInBackground read)
-      : session_(session), read_in_background_(std::move(read)) {}
+  /// `looked_through`: the campaign at hand has a source now.
+  ReviewSources(SessionModel& session, ReadInBackground read, std::function<void()> looked_through)
+      : session_(session), read_in_background_(std::move(read)), choices_(std::move(looked_through)) {}
   /// Forgets what is shown of the campaigns; another one than that at hand is read anew where something of it changed.
   void refresh();
   [[nodiscard]] std::vector<std::pair<std::int64_t, QString>> campaigns() const;
   /// Null while the campaign is being read, and if it cannot be.
   [[nodiscard]] std::shared_ptr<const ReviewSource> source(std::int64_t id);
   [[nodiscard]] bool reading(std::int64_t id) const;
-  void take(std::int64_t id, std::shared_ptr<const CampaignState> state);
+  void take(std::int64_t id, std::shared_ptr<const ReadForReview> read);
 
  private:
   /// What the session holds of a campaign, as far as reading it depends on it.
@@ -71,14 +92,15 @@ class ReviewSources {
   struct Other {
     Version version;
     bool reading = true;
-    std::shared_ptr<const CampaignState> state;  ///< null: it is being read, or cannot be
+    std::shared_ptr<const ReadForReview> read;  ///< null: it is being read, or cannot be
   };
   [[nodiscard]] Version versionOf(std::int64_t id) const;
   /// As it would be if it were at hand; asks for it to be read where it is not there as it is now.
-  [[nodiscard]] std::shared_ptr<const CampaignState> stateOf(std::int64_t id);
+  [[nodiscard]] std::shared_ptr<const ReadForReview> readOf(std::int64_t id);
 
   SessionModel& session_;
   ReadInBackground read_in_background_;
+  FromObservations<ReviewChoices> choices_;  ///< of the campaign at hand
   std::map<std::int64_t, Other> others_;
   std::int64_t session_number_ = -1;
   std::map<std::int64_t, std::shared_ptr<const ReviewSource>> read_;

@@ -21,6 +21,7 @@
 #include "tests/widgets/support/story_support.h"
 #include "widgets/commands/commands.h"
 #include "widgets/jobs/job_bar.h"
+#include "widgets/pages/page.h"
 
 namespace spindrift::gui {
 namespace {
@@ -243,6 +244,77 @@ TEST_F(LargeCampaignTest, AnEditCostsTheSameHoweverManyReadingsThereAre) {
   for (const auto& [edit, ms] : few) {
     std::printf("%-20s %8.2f ms of 18,000 readings, %8.2f ms of 180,000\n", edit.c_str(), ms, many.at(edit));
     EXPECT_LT(many.at(edit), most_growth * std::max(ms, clock_ms)) << edit;
+  }
+}
+
+/// Every reading taken `times` times, one after the other: more readings of as many states and points.
+void repeatReadings(const std::filesystem::path& campaign, int times) {
+  const ObservationSet once = ObservationSet::read(campaign / "observations.csv");
+  ObservationSet all;
+  all.rows.reserve(once.rows.size() * static_cast<std::size_t>(times));
+  for (int time = 0; time < times; ++time) all.rows.insert(all.rows.end(), once.rows.begin(), once.rows.end());
+  for (std::size_t i = 0; i < all.rows.size(); ++i)
+    all.rows[i].time_s += 0.01 * static_cast<double>(i / once.rows.size());
+  std::stable_sort(all.rows.begin(), all.rows.end(),
+                   [](const Observation& a, const Observation& b) { return a.time_s < b.time_s; });
+  all.write(campaign / "observations.csv");
+}
+
+/// What the GUI thread does at most in one turn of its event loop when a reading is excluded while a page is shown, ms
+/// of processor time.
+class ShownPagesTest : public LargeCampaignTest {
+ protected:
+  std::map<std::string, double> costsOfPages(const std::string& name, int times,
+                                             const std::map<std::string, nlohmann::json>& results) {
+    const std::filesystem::path written = writeStoryCampaign(folder_, Hidden::Nothing, true, {240, 480});
+    std::filesystem::rename(written, folder_ / name);
+    repeatReadings(folder_ / name, times);
+    open(folder_ / name, StepId::Machine);
+    for (const auto& [kind, payload] : results) session().storeResult(kind, nlohmann::json::object(), payload);
+    window_->undoStack().push(new ExcludeCommand(session(), {QStringLiteral("M3/P2/EZ")}, QStringLiteral("disturbed")));
+    wait();
+    std::map<std::string, double> ms;
+    for (const StepId step : {StepId::WarmUp, StepId::Model, StepId::Discrepancy, StepId::Compensate, StepId::Verify,
+                              StepId::Review, StepId::Report}) {
+      window_->workflow().goTo(step);
+      wait();
+      ms[std::string(toString(step))] = leastTurnMs([this](int edit) {
+        const QString reason = edit % 2 == 0 ? QStringLiteral("disturbed") : QString();
+        window_->undoStack().push(new ExcludeCommand(session(), {QStringLiteral("M4/P2/EZ")}, reason));
+      });
+    }
+    return ms;
+  }
+
+ private:
+  double leastTurnMs(const std::function<void(int)>& edit) {
+    double least = 1e300;
+    for (int i = 0; i < 5; ++i) {
+      watch_.during(
+          QStringLiteral("an edit"), [&] { edit(i); }, [this] { wait(); });
+      least = std::min(least, watch_.longest().back().processor_ms);
+    }
+    return least;
+  }
+};
+
+TEST_F(ShownPagesTest, AnExclusionCostsTheSameHoweverManyReadingsThereAre) {
+  constexpr double most_growth = 2.0;
+  constexpr double painting_ms = 10.0;  // what is quicker than that nobody notices
+  std::map<std::string, nlohmann::json> results;
+  open(writeStoryCampaign(folder_, Hidden::SpindleGrowth), StepId::Model);
+  for (const auto& [step, kind] : {std::pair(StepId::Model, "fit"), {StepId::Discrepancy, "discrepancy"}}) {
+    window_->workflow().goTo(step);
+    window_->currentPage()->runAll();
+    wait();
+    ASSERT_TRUE(session().state(kind).current) << kind;
+    results[kind] = session().latest(kind)->payload;
+  }
+  const auto few = costsOfPages("few", 4, results);
+  const auto many = costsOfPages("many", 40, results);
+  for (const auto& [edit, ms] : few) {
+    std::printf("%-40s %8.1f ms of 17,280 readings, %8.1f ms of 172,800\n", edit.c_str(), ms, many.at(edit));
+    EXPECT_LT(many.at(edit), most_growth * std::max(ms, painting_ms)) << edit;
   }
 }
 

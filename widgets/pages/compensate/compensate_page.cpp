@@ -44,7 +44,9 @@ constexpr std::array<const char*, 3> axis_words{"X", "Y", "Z"};
 }  // namespace
 
 CompensatePage::CompensatePage(PageContext page_context, QWidget* parent)
-    : Page(std::move(page_context), StepId::Compensate, parent), options_(session(), context().undo, [this] {
+    : Page(std::move(page_context), StepId::Compensate, parent),
+      places_([this] { refresh(); }),
+      options_(session(), context().undo, [this] {
         context().workflow.refresh();
         refresh();
         compute();
@@ -237,35 +239,40 @@ void CompensatePage::fillChoices() {
     source_->addItem(tr("Higher order"), static_cast<int>(CompensationSource::HigherOrder));
   }
   source_->setCurrentIndex(std::max(0, source_->findData(static_cast<int>(r.source))));
-  state_->clear();
-  if (const auto set = session().observations()) {
-    const std::vector<std::string> states = set->states();
-    for (std::size_t i = 0; i < states.size(); ++i) {
-      if (i == 0 && states.size() > 1) continue;  // the reference
-      state_->addItem(QString::fromStdString(states[i]));
-    }
-    const int index = state_->findText(QString::fromStdString(r.state.empty() ? warmestState(*set) : r.state));
-    state_->setCurrentIndex(index >= 0 ? index : state_->count() - 1);
+  const auto campaign = session().campaign();
+  const auto places =
+      places_.ask(session().observations(), r.state, [campaign, asked = r.state](const ObservationSet& observations) {
+        Places found;
+        found.states = observations.states();
+        if (found.states.size() > 1) found.states.erase(found.states.begin());  // the reference
+        found.state = asked.empty() ? warmestState(observations) : asked;
+        if (std::find(found.states.begin(), found.states.end(), found.state) == found.states.end())
+          found.state = found.states.empty() ? std::string() : found.states.back();
+        found.reference_mm = usualReference(campaign->machine, observations, found.state);
+        return found;
+      });
+  if (places != nullptr) {
+    state_->clear();
+    for (const std::string& state : places->states) state_->addItem(QString::fromStdString(state));
+    state_->setCurrentIndex(state_->findText(QString::fromStdString(places->state)));
   }
   positions_->setValue(r.positions);
   fanuc_->setCurrentIndex(fanuc_->findData(r.fanuc_step ? static_cast<int>(*r.fanuc_step) : -1));
-  const MachineDescription& machine = session().campaign()->machine;
-  const auto set = session().observations();
-  const ObservationSet nothing;
-  const Eigen::Vector3d reference_mm =
-      r.reference_mm.value_or(usualReference(machine, set ? *set : nothing, state_->currentText().toStdString()));
+  const std::optional<Eigen::Vector3d> reference_mm =
+      r.reference_mm || places == nullptr ? r.reference_mm : places->reference_mm;
   for (std::size_t i = 0; i < 3; ++i) {
-    const LinearAxis* axis = machine.findAxis(axis_words[i]);
+    const LinearAxis* axis = campaign->machine.findAxis(axis_words[i]);
     reference_[i]->setVisible(axis != nullptr);
     if (axis == nullptr) continue;
     reference_[i]->setRange(axis->travel_mm[0], axis->travel_mm[1]);
-    reference_[i]->setValue(reference_mm[static_cast<Eigen::Index>(i)]);
+    if (reference_mm) reference_[i]->setValue((*reference_mm)[static_cast<Eigen::Index>(i)]);
   }
 }
 
 void CompensatePage::refresh() {
   if (session().campaign() == nullptr) return;
   if (noticeCampaign()) {
+    state_->clear();
     plan_.reset();
     showPlan();
   }

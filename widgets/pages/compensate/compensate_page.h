@@ -4,10 +4,13 @@
 #pragma once
 
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "core/workflows/compensation_workflow.h"
 #include "widgets/commands/bound_options.h"
 #include "widgets/pages/page.h"
+#include "widgets/services/from_observations.h"
 
 class QCheckBox;
 class QComboBox;
@@ -62,6 +65,13 @@ class CompensatePage : public Page {
   EmptyState* empty_;
   QComboBox* source_;
   QComboBox* state_;
+  /// What can be chosen in it, and where the tables usually pass through then.
+  struct Places {
+    std::vector<std::string> states;  ///< without the reference
+    std::string state;                ///< that is chosen, else the warmest
+    Eigen::Vector3d reference_mm = Eigen::Vector3d::Zero();
+  };
+  FromObservations<Places> places_;
   QSpinBox* positions_;
   std::array<QDoubleSpinBox*, 3> reference_{};
   QComboBox* fanuc_;

@@ -142,7 +142,7 @@ Sentence verdictOf(const DiscrepancyStory& story) {
 }  // namespace
 
 DiscrepancyPage::DiscrepancyPage(PageContext page_context, QWidget* parent)
-    : Page(std::move(page_context), StepId::Discrepancy, parent) {
+    : Page(std::move(page_context), StepId::Discrepancy, parent), excluded_([this] { showExcluded(); }) {
   search_ = makeButton(tr("Search"), nullptr, "primary");
   search_->setToolTip(tr("Find where measurement and simulation disagree, and try every effect of the catalogue"));
   effects_button_ = makeButton(tr("Effects"), "table");
@@ -248,6 +248,7 @@ QString DiscrepancyPage::missing() const {
 void DiscrepancyPage::refresh() {
   if (session().campaign() == nullptr) return;
   if (noticeCampaign()) {
+    if (noise_ != nullptr) noise_->setExcluded({});
     if (effects_ != nullptr) effects_->closeEditor();
     showEffects(session().draft(EffectsPanel::draft_name).is_object());
   }
@@ -538,17 +539,20 @@ void DiscrepancyPage::choose(const std::string& point, Component component) {
 
 void DiscrepancyPage::showExcluded() {
   if (noise_ == nullptr) return;  // show() fills it
-  std::vector<ExcludedReading> excluded;
   const std::map<QString, QString>& items = session().excluded();
-  if (const auto observations = items.empty() ? ObservationsToFit() : session().observations()) {
-    for (std::size_t i = 0; i < observations->rows.size(); ++i) {
-      const Observation& o = observations->rows[i];
-      const auto found = items.find(itemOf(o.state, o.point, o.component));
-      if (found == items.end()) continue;
-      excluded.push_back({{i, o.time_s, o.state, o.point, o.component, o.value, std::nan("")}, found->second});
+  const auto set = session().observations();
+  if (items.empty() || !set) return noise_->setExcluded({});
+  const auto excluded = excluded_.ask(set, {}, [items](const ObservationSet& observations) {
+    std::vector<ExcludedReading> found;
+    for (std::size_t i = 0; i < observations.rows.size(); ++i) {
+      const Observation& o = observations.rows[i];
+      const auto item = items.find(itemOf(o.state, o.point, o.component));
+      if (item == items.end()) continue;
+      found.push_back({{i, o.time_s, o.state, o.point, o.component, o.value, std::nan("")}, item->second});
     }
-  }
-  noise_->setExcluded(std::move(excluded));
+    return found;
+  });
+  if (excluded != nullptr) noise_->setExcluded(*excluded);
 }
 
 void DiscrepancyPage::toggleExcluded() {

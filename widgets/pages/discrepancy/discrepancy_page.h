@@ -12,6 +12,7 @@
 #include "core/workflows/discrepancy_story.h"
 #include "widgets/common/parts.h"
 #include "widgets/pages/page.h"
+#include "widgets/services/from_observations.h"
 
 class QLabel;
 class QStackedWidget;
@@ -30,6 +31,7 @@ class RemainderPanel;
 class SimulationPanel;
 class WhatPanel;
 class WherePanel;
+struct ExcludedReading;
 
 class DiscrepancyPage : public Page {
   Q_OBJECT
@@ -110,6 +112,7 @@ class DiscrepancyPage : public Page {
   WherePanel* where_;
   WhatPanel* what_ = nullptr;  ///< this and the others: see makePanel
   NoisePanel* noise_ = nullptr;
+  FromObservations<std::vector<ExcludedReading>> excluded_;
   RemainderPanel* remainder_ = nullptr;
   GapPanel* gap_;
   SimulationPanel* simulation_ = nullptr;

@@ -50,7 +50,9 @@ Cell parameterCell(double value, double sigma, std::string_view unit) {
 }  // namespace
 
 NineParameterPage::NineParameterPage(PageContext page_context, QWidget* parent)
-    : Page(std::move(page_context), StepId::Model, parent), options_(session(), context().undo, [this] {
+    : Page(std::move(page_context), StepId::Model, parent),
+      states_([this] { refresh(); }),
+      options_(session(), context().undo, [this] {
         refresh();
         runAlone("fit");
       }) {
@@ -186,24 +188,14 @@ void NineParameterPage::refresh() {
   const auto campaign = session().campaign();
   if (campaign == nullptr) return;
   if (noticeCampaign()) {
+    state_->clear();
     changes_.reset();
     result_.reset();
     showFit();
   }
   const auto set = session().observations();
-  QString chosen = QString::fromStdString(options().state);
-  if (chosen.isEmpty() && set) chosen = QString::fromStdString(lastStateToFit(*set));
   options_.fill([&] {
-    state_->clear();
-    if (set) {
-      const std::vector<std::string> states = set->states();
-      for (std::size_t i = 0; i < states.size(); ++i) {
-        if (i == 0 && states.size() > 1) continue;  // the reference
-        state_->addItem(QString::fromStdString(states[i]));
-      }
-      const int index = state_->findText(chosen);
-      state_->setCurrentIndex(index >= 0 ? index : state_->count() - 1);
-    }
+    fillStates();
     robust_->setCurrentIndex(static_cast<int>(options().robust));
   });
   fit_button_->setEnabled(set != nullptr && canRun("fit"));
@@ -224,14 +216,34 @@ void NineParameterPage::refresh() {
                     tr("Changed since this was fitted: %1. Fit the model again.").arg(fit.state.changed));
 }
 
+void NineParameterPage::fillStates() {
+  const auto set = session().observations();
+  if (!set) return state_->clear();
+  const auto states = states_.ask(set, {}, [](const ObservationSet& observations) {
+    return States{observations.states(), lastStateToFit(observations)};
+  });
+  if (states == nullptr) return;
+  state_->clear();
+  for (std::size_t i = 0; i < states->all.size(); ++i) {
+    if (i == 0 && states->all.size() > 1) continue;  // the reference
+    state_->addItem(QString::fromStdString(states->all[i]));
+  }
+  const std::string chosen = options().state.empty() ? states->last : options().state;
+  const int index = state_->findText(QString::fromStdString(chosen));
+  state_->setCurrentIndex(index >= 0 ? index : state_->count() - 1);
+}
+
 void NineParameterPage::fillPoints() {
   const auto set = session().observations();
   const std::string state = state_->currentText().toStdString();
-  if (set == nullptr || state.empty()) {
+  // While it is still to be found which states there are, that which is fitted if none is chosen is read.
+  const bool fitted = state.empty() && states_.busy() && options().state.empty();
+  if (set == nullptr || (state.empty() && !fitted)) {
     changes_.reset();
-  } else if (changes_ == nullptr || changes_->of != set || changes_->state != state) {
+  } else if (changes_ == nullptr || changes_->of != set || (changes_->state != state && !fitted)) {
     display(tr("Reading the points"), [this, set, state](JobContext&) -> std::function<void()> {
-      return [this, now = std::make_shared<const Changes>(Changes{set, state, pointChanges(*set, state)})] {
+      const std::string read = state.empty() ? lastStateToFit(*set) : state;
+      return [this, now = std::make_shared<const Changes>(Changes{set, read, pointChanges(*set, read)})] {
         changes_ = now;
         showPoints();
       };

@@ -14,6 +14,7 @@
 #include "core/workflows/nine_parameter_maps.h"
 #include "widgets/commands/bound_options.h"
 #include "widgets/pages/page.h"
+#include "widgets/services/from_observations.h"
 
 class QCheckBox;
 class QComboBox;
@@ -46,6 +47,7 @@ class NineParameterPage : public Page {
 
  private:
   void lookAgain();
+  void fillStates();
   void fillPoints();
   void showPoints();
   void showFit();
@@ -57,6 +59,12 @@ class NineParameterPage : public Page {
 
   QPushButton* fit_button_;
   QComboBox* state_;
+  /// What can be chosen in it.
+  struct States {
+    std::vector<std::string> all;  ///< in order of first appearance
+    std::string last;              ///< lastStateToFit
+  };
+  FromObservations<States> states_;
   QComboBox* robust_;
   RowsModel* points_;
   /// What stands in the table of points.

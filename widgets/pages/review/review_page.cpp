@@ -44,9 +44,12 @@ constexpr double section_reach = 0.1;
 
 ReviewPage::ReviewPage(PageContext page_context, QWidget* parent)
     : Page(std::move(page_context), StepId::Review, parent),
-      sources_(session(), [this](std::int64_t id, const QString& name, CampaignSource source) {
-        readOther(id, name, std::move(source));
-      }) {
+      sources_(
+          session(),
+          [this](std::int64_t id, const QString& name, CampaignSource source) {
+            readOther(id, name, std::move(source));
+          },
+          [this] { refresh(); }) {
   play_ = makeButton(tr("Play the states"), "play", "primary");
   play_->setCheckable(true);
   addAction(play_);
@@ -206,15 +209,20 @@ void ReviewPage::setHeatMaps(bool on) {
 
 void ReviewPage::refresh() {
   if (session().campaign() == nullptr) return;
-  noticeCampaign();
+  const bool another = noticeCampaign();
   sources_.refresh();
+  const auto own = sources_.source(session().campaignId());
+  if (own == nullptr && sources_.reading(session().campaignId())) {
+    // What is shown stays until they are looked through, but nothing of another campaign.
+    if (another) showNothingYet();
+    return;
+  }
   const std::string folder = session().campaign()->folder.string();
   const bool other = shown_folder_ != folder;
   refit_ = refit_ || other;
   shown_folder_ = folder;
   for (ReviewPane* pane : panes_) pane->refresh(session().campaignId());
   fillSlider();
-  const auto own = sources_.source(session().campaignId());
   filling_ = true;
   if (own != nullptr && other) {
     place_->setRange(-1e5, 1e5);
@@ -228,10 +236,12 @@ void ReviewPage::refresh() {
     panes_[2]->choose(scans       ? PaneContent::ScanLeftOver
                       : simulated ? PaneContent::SimulationLeft
                                   : PaneContent::NineParametersLeft);
-    panes_[3]->choose(PaneContent::Difference, own->states.size() > 1 ? fromCore(own->states[1]) : QString());
+    panes_[3]->choose(PaneContent::Difference,
+                      own->choices.states.size() > 1 ? fromCore(own->choices.states[1]) : QString());
   }
   filling_ = false;
-  if (own == nullptr || (own->states.empty() && own->scans.empty())) {
+  const bool something = own != nullptr && !(own->choices.states.empty() && own->scans.empty());
+  if (!something) {
     callout()->show(Tone::Attention, tr("There is nothing to compare yet: evaluate the captures first."));
     callout()->setAction(tr("Go to Calibrate"), [this] { context().workflow.goTo(StepId::Calibrate); });
   } else {
@@ -239,7 +249,15 @@ void ReviewPage::refresh() {
     sayWhatIsOutdated();
   }
   showAll();
-  if (isVisible() && (own != nullptr && !(own->states.empty() && own->scans.empty()))) session().noteReviewed();
+  if (isVisible() && something) session().noteReviewed();
+}
+
+void ReviewPage::showNothingYet() {
+  callout()->setAction({}, {});
+  callout()->set(Tone::Neutral, {});
+  for (ReviewPane* pane : panes_) pane->showMessage(tr("Nothing to show"), tr("This campaign is being read."));
+  rows_->setRows({});
+  section_->setContent({});
 }
 
 void ReviewPage::readOther(std::int64_t id, const QString& name, CampaignSource source) {
@@ -249,9 +267,9 @@ void ReviewPage::readOther(std::int64_t id, const QString& name, CampaignSource 
   job.key = "review/" + std::to_string(id);
   job.work = [this, id, session_number = session().sessionNumber(),
               source = std::move(source)](JobContext& context) -> std::function<void()> {
-    auto state = std::make_shared<const CampaignState>(CampaignState::read(source, context));
-    return [this, id, session_number, state] {
-      if (session_number == session().sessionNumber()) takeOther(id, state);
+    auto read = std::make_shared<const ReadForReview>(ReadForReview::read(source, context));
+    return [this, id, session_number, read] {
+      if (session_number == session().sessionNumber()) takeOther(id, read);
     };
   };
   job.failed = [this, id, session_number = session().sessionNumber()](const QString&) {
@@ -261,8 +279,8 @@ void ReviewPage::readOther(std::int64_t id, const QString& name, CampaignSource 
   context().jobs.run(std::move(job));
 }
 
-void ReviewPage::takeOther(std::int64_t id, std::shared_ptr<const CampaignState> state) {
-  sources_.take(id, std::move(state));
+void ReviewPage::takeOther(std::int64_t id, std::shared_ptr<const ReadForReview> read) {
+  sources_.take(id, std::move(read));
   for (ReviewPane* pane : panes_) pane->refresh(session().campaignId());
   if (!states_.empty()) sayWhatIsOutdated();
   showAll();
@@ -291,7 +309,7 @@ void ReviewPage::sayWhatIsOutdated() {
 void ReviewPage::fillSlider() {
   // The states of the campaign at hand; panes of other campaigns that lack one say so.
   const auto own = sources_.source(session().campaignId());
-  std::vector<std::string> states = own == nullptr ? std::vector<std::string>() : own->states;
+  std::vector<std::string> states = own == nullptr ? std::vector<std::string>() : own->choices.states;
   if (states.empty() && own != nullptr) {
     for (const ScanCapture& c : own->scans)
       if (std::find(states.begin(), states.end(), c.cycle) == states.end()) states.push_back(c.cycle);
@@ -309,7 +327,7 @@ void ReviewPage::fillAngles() {
   std::set<double> angles;
   for (const ReviewPane* pane : panes_) {
     const auto source = pane->isHidden() ? nullptr : pane->source();
-    if (source != nullptr) angles.insert(source->angles_deg.begin(), source->angles_deg.end());
+    if (source != nullptr) angles.insert(source->choices.angles_deg.begin(), source->choices.angles_deg.end());
   }
   QVariantList wanted;
   if (angles.size() > 1) {
@@ -410,9 +428,7 @@ void ReviewPage::select(const QString& point) {
 /// Through the middle of the travel, along X; points that all lie on a line along Y have a section along Y, through
 /// them.
 void ReviewPage::chooseSection(const ReviewSource& source) {
-  Eigen::AlignedBox2d extent;
-  if (source.observations != nullptr)
-    for (const Observation& o : source.observations->rows) extent.extend(o.position_mm.head<2>());
+  const Eigen::AlignedBox2d& extent = source.choices.extent_mm;
   const bool along_y = !extent.isEmpty() && extent.sizes().x() < 1e-6 && extent.sizes().y() > 1e-6;
   direction_->setCurrent(along_y ? 1 : 0);
   const LinearAxis* across = source.campaign->machine.findAxis(along_y ? "X" : "Y");

@@ -69,8 +69,9 @@ class ReviewPage : public Page {
   void play(bool on);
   [[nodiscard]] double exaggeration() const;
 
+  void showNothingYet();
   void readOther(std::int64_t id, const QString& name, CampaignSource source);
-  void takeOther(std::int64_t id, std::shared_ptr<const CampaignState> state);
+  void takeOther(std::int64_t id, std::shared_ptr<const ReadForReview> read);
 
   ReviewSources sources_;
   std::string shown_folder_;  ///< of the campaign; ids start again in every session

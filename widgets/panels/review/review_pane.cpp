@@ -168,7 +168,7 @@ void ReviewPane::fillStates() {
   }
   if (!first_) offer(tr("Minus pane 1"), PaneContent::Difference);  // pane 1 has nothing to be compared with
   if (from != nullptr) {
-    for (const std::string& s : from->states) state_->addItem(fromCore(s));
+    for (const std::string& s : from->choices.states) state_->addItem(fromCore(s));
     if (!from->scans.empty()) {
       offer(tr("Scan, change"), PaneContent::ScanChange);
       offer(tr("Scan residual"), PaneContent::ScanLeftOver);

@@ -10,6 +10,7 @@
 #include <QVBoxLayout>
 #include <algorithm>
 #include <set>
+#include <utility>
 
 #include "core/base/error.h"
 #include "widgets/commands/campaign_undo.h"
@@ -45,7 +46,7 @@ class ClockCommand : public QUndoCommand {
 
 ClockPanel::ClockPanel(SessionModel& session, CampaignUndo& undo, std::function<void(const QString&, Work)> run,
                        QWidget* parent)
-    : QWidget(parent), session_(session), undo_(undo), run_(std::move(run)) {
+    : QWidget(parent), session_(session), undo_(undo), run_(std::move(run)), instruments_([this] { refresh(); }) {
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(0, 8, 0, 0);
   auto* text = makeLabel(tr("Clocks of logger and instruments differ. The offset is added to the times of a source; a "
@@ -129,18 +130,30 @@ void ClockPanel::estimate() {
        });
 }
 
-void ClockPanel::refresh() {
-  if (session_.campaign() == nullptr) return;
-  filling_ = true;
+void ClockPanel::fillSources() {
+  if (std::exchange(shown_visit_, session_.visit()) != session_.visit()) source_->clear();
   std::set<std::string> sources;
+  if (const auto set = session_.observations()) {
+    const auto instruments = instruments_.ask(set, {}, [](const ObservationSet& observations) {
+      std::set<std::string> found;
+      for (const Observation& o : observations.rows)
+        if (!o.instrument.empty()) found.insert(o.instrument);
+      return found;
+    });
+    if (instruments == nullptr) return;
+    sources = *instruments;
+  }
   if (session_.campaign()->log) sources.insert("log");
-  if (const auto set = session_.observations())
-    for (const Observation& o : set->rows)
-      if (!o.instrument.empty()) sources.insert(o.instrument);
   const QString chosen = chosenSource();
   source_->clear();
   for (const std::string& s : sources) source_->addItem(nameOf(s), fromCore(s));
   source_->setCurrentIndex(std::max(source_->findData(chosen), source_->count() > 0 ? 0 : -1));
+}
+
+void ClockPanel::refresh() {
+  if (session_.campaign() == nullptr) return;
+  filling_ = true;
+  fillSources();
   const ClockOffsets now = session_.clockOffsets();
   const auto found = now.find(chosenSource().toStdString());
   offset_->setValue(found == now.end() ? 0.0 : found->second.offset_s);

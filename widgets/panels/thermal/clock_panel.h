@@ -4,9 +4,13 @@
 #pragma once
 
 #include <QWidget>
+#include <cstdint>
 #include <functional>
+#include <set>
+#include <string>
 
 #include "core/base/job_context.h"
+#include "widgets/services/from_observations.h"
 
 class QComboBox;
 class QDoubleSpinBox;
@@ -36,12 +40,15 @@ class ClockPanel : public QWidget {
  private:
   [[nodiscard]] QString chosenSource() const;  ///< as the session names it
   [[nodiscard]] static QString nameOf(const std::string& source);
+  void fillSources();
   void change(const std::string& source, double offset_s, double sigma_s, const std::string& how);
 
   SessionModel& session_;
   CampaignUndo& undo_;
   std::function<void(const QString&, Work)> run_;
   bool filling_ = false;
+  FromObservations<std::set<std::string>> instruments_;
+  std::int64_t shown_visit_ = -1;  ///< SessionModel::visit of what `source_` offers
   QComboBox* source_;
   QDoubleSpinBox* offset_;
   QPushButton* estimate_;

@@ -45,7 +45,7 @@ std::optional<ResolutionCheck> showResolutionCheck(const SessionModel& session, 
 
 ResolutionCheckPanel::ResolutionCheckPanel(SessionModel& session, const QString& instruction, const QString& button,
                                            std::string task, std::function<void()> check, QWidget* parent)
-    : QWidget(parent), session_(session), task_(std::move(task)) {
+    : QWidget(parent), session_(session), task_(std::move(task)), states_([this] { refresh(); }) {
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(0, 8, 0, 0);
   auto* line = new QHBoxLayout;
@@ -65,9 +65,12 @@ ResolutionCheckPanel::ResolutionCheckPanel(SessionModel& session, const QString&
 
 void ResolutionCheckPanel::refresh() {
   const auto set = session_.observations();
-  button_->setEnabled(set != nullptr && set->states().size() > 1);
+  const auto states =
+      !set ? nullptr
+           : states_.ask(set, {}, [](const ObservationSet& observations) { return observations.states().size(); });
+  button_->setEnabled(states != nullptr && *states > 1);
   const std::optional<ResolutionCheck> check = showResolutionCheck(session_, task_, *verdict_);
-  if (!button_->isEnabled())
+  if (!set || (states != nullptr && *states < 2))
     verdict_->set(Tone::Neutral, tr("Needs observations of at least two states; evaluate the captures first."));
   std::vector<Row> rows;
   const auto um = [](double value, int digits) {

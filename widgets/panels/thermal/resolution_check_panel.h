@@ -11,6 +11,7 @@
 
 #include "core/imaging/jog_validation.h"
 #include "widgets/models/rows_model.h"
+#include "widgets/services/from_observations.h"
 
 class QPushButton;
 
@@ -37,6 +38,7 @@ class ResolutionCheckPanel : public QWidget {
   QPushButton* button_;
   Callout* verdict_;
   RowsModel* rows_;
+  FromObservations<std::size_t> states_;  ///< how many there are
 };
 
 /// The stored result of such a task, its verdict in the callout; nothing where there is none. Of an outdated one the

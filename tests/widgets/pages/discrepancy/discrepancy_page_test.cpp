@@ -291,7 +291,7 @@ TEST_F(DiscrepancyPageTest, AnOutlyingReadingIsLookedAtExcludedAndBroughtBack) {
 
   page_->excludeReadings(QStringLiteral("chip on the ball"));
   EXPECT_EQ(state(), StepState::Outdated);
-  QTest::qWait(20);
+  wait();
   EXPECT_TRUE(noise->chosenAreExcluded());
   EXPECT_TRUE(noise->excludeButton()->text().contains(QStringLiteral("Bring back")));
   page_->runAll();
