@@ -22369,6 +22369,10 @@ ihrem Ordner und führen nicht hinaus.
         <source>Reading the points</source>
         <translation>Punkte werden gelesen</translation>
     </message>
+    <message>
+        <source>all states together</source>
+        <translation>alle Zustände zusammen</translation>
+    </message>
 </context>
 <context>
     <name>spindrift::gui::NoisePanel</name>

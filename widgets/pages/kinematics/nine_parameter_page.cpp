@@ -139,8 +139,7 @@ NineParameterPage::NineParameterPage(PageContext page_context, QWidget* parent)
 
   connect(fit_button_, &QPushButton::clicked, this, [this] { runTask("fit"); });
   connect(state_, &QComboBox::activated, this, [this](int) {
-    options_.change(tr("choose state"),
-                    [this](NineParameterChoice& o) { o.state = state_->currentText().toStdString(); });
+    options_.change(tr("choose state"), [this](NineParameterChoice& o) { o.state = shownState(); });
   });
   connect(robust_, &QComboBox::activated, this, [this](int index) {
     options_.change(tr("treat outliers"),
@@ -226,16 +225,24 @@ void NineParameterPage::fillStates() {
   state_->clear();
   for (std::size_t i = 0; i < states->all.size(); ++i) {
     if (i == 0 && states->all.size() > 1) continue;  // the reference
-    state_->addItem(QString::fromStdString(states->all[i]));
+    const QString name = QString::fromStdString(states->all[i]);
+    state_->addItem(name, name);
   }
+  // What is fitted of an absolute set with few points in each state.
+  const QString every = QString::fromStdString(std::string(every_state));
+  if (states->last == every_state) state_->addItem(tr("all states together"), every);
   const std::string chosen = options().state.empty() ? states->last : options().state;
-  const int index = state_->findText(QString::fromStdString(chosen));
+  const int index = state_->findData(QString::fromStdString(chosen));
   state_->setCurrentIndex(index >= 0 ? index : state_->count() - 1);
+}
+
+std::string NineParameterPage::shownState() const {
+  return state_->currentData().toString().toStdString();
 }
 
 void NineParameterPage::fillPoints() {
   const auto set = session().observations();
-  const std::string state = state_->currentText().toStdString();
+  const std::string state = shownState();
   // While it is still to be found which states there are, that which is fitted if none is chosen is read.
   const bool fitted = state.empty() && states_.busy() && options().state.empty();
   if (set == nullptr || (state.empty() && !fitted)) {

@@ -48,6 +48,7 @@ class NineParameterPage : public Page {
  private:
   void lookAgain();
   void fillStates();
+  [[nodiscard]] std::string shownState() const;
   void fillPoints();
   void showPoints();
   void showFit();

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <QCheckBox>
+#include <QComboBox>
 #include <QTableView>
 #include <cmath>
 
@@ -141,6 +142,32 @@ TEST_F(NineParameterPageTest, OffersTheHigherOrderWhereTheEvidenceAsksForIt) {
   ASSERT_TRUE(stored);
   const nlohmann::json& order = stored->payload.at("higher_order");
   EXPECT_EQ(order.at("reason"), page->orderChoice().reason) << "stored as chosen";
+}
+
+TEST_F(NineParameterPageTest, TheStateThatIsShownIsTheOneThatIsFitted) {
+  // Measured in passing: every point at a time of its own, which is a state of its own.
+  const std::filesystem::path folder = campaign(0.0);
+  ObservationSet set = ObservationSet::read(folder / "observations.csv");
+  std::erase_if(set.rows, [](const Observation& o) { return o.state == "M0"; });
+  for (Observation& o : set.rows) {
+    o.state = "at " + o.point;
+    o.time_s += 10.0 * std::stod(o.point.substr(1));
+  }
+  set.write(folder / "observations.csv");
+  folder_.write("bend_0/campaign.json", R"({"format":"spindrift-campaign","version":1,"name":"table",)"
+                                        R"("reference":"absolute","start_utc":"2026-03-01T08:00:00Z"})");
+  open(folder);
+  auto* page = go<NineParameterPage>(StepId::Model);
+  ASSERT_NE(page, nullptr);
+  const QComboBox* state = nullptr;
+  for (const QComboBox* box : page->findChildren<QComboBox*>())
+    if (box->accessibleName() == QStringLiteral("Thermal state to fit")) state = box;
+  ASSERT_NE(state, nullptr);
+  EXPECT_EQ(state->currentText(), QStringLiteral("all states together"));
+  press();
+  ASSERT_NE(page->fit(), nullptr);
+  EXPECT_EQ(page->fit()->state, "all");
+  EXPECT_EQ(state->currentData().toString(), fromCore(page->fit()->state));
 }
 
 TEST_F(NineParameterPageTest, KeepsToNineParametersWhereTheyAreEnough) {
