@@ -72,6 +72,7 @@ class Assembler {
     findRadii();
     std::vector<bool> excluded(list_.touches.size(), false);
     for (const RejectedTouch& r : result_.rejected) excluded[r.touch] = true;
+    requireTouches(excluded);
     leaveOutMovedCycles(excluded);
     for (int pass = 0; pass < 2; ++pass) {
       centre(excluded);
@@ -98,6 +99,25 @@ class Assembler {
   }
 
  private:
+  /// Throws InputError where no touch is left.
+  void requireTouches(const std::vector<bool>& excluded) const {
+    std::size_t count = 0;
+    for (const Group& g : groups_) {
+      count += g.touches.size();
+      for (const std::size_t i : g.touches) {
+        if (!excluded[i]) return;
+      }
+    }
+    if (result_.rejected.empty()) return;
+    const RejectedTouch& first = result_.rejected.front();
+    throw InputError(
+        SourcePlace::atLine(list_.file, list_.touches[first.touch].line),
+        fmt::format("none of the {} touches of {} lies where the machine file has its features, this one for instance: "
+                    "{}; allowed: x_mm, y_mm and z_mm in the machine's coordinates (two columns swapped, a wrong sign, "
+                    "or another place, direction or order of the features?).",
+                    count, artefact_.id, first.reason.substr(0, first.reason.find("; left out"))));
+  }
+
   [[nodiscard]] std::vector<double> rowTimes() const {
     std::vector<double> time_s;
     for (const std::size_t i : result_.row_touch) time_s.push_back(list_.touches[i].time_s);

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -24,6 +25,37 @@ std::vector<std::string> distinct(const std::vector<Touch>& touches, std::string
     if (seen.insert(t.*member).second) names.push_back(t.*member);
   }
   return names;
+}
+
+/// How far balls lie from their certificate after the best turn and shift, mm rms: right-handed, and as in a mirror.
+struct Handedness {
+  double turned_mm = 0.0;
+  double mirrored_mm = 0.0;
+};
+/// Best turn by the singular value decomposition (Umeyama 1991). Balls in one plane fit equally well either way.
+Handedness handednessOf(const std::vector<Eigen::Vector3d>& certified_mm,
+                        const std::vector<Eigen::Vector3d>& found_mm) {
+  const auto n = static_cast<double>(found_mm.size());
+  Eigen::Vector3d certified_mean = Eigen::Vector3d::Zero();
+  Eigen::Vector3d found_mean = Eigen::Vector3d::Zero();
+  for (std::size_t i = 0; i < found_mm.size(); ++i) {
+    certified_mean += certified_mm[i] / n;
+    found_mean += found_mm[i] / n;
+  }
+  Eigen::Matrix3d product = Eigen::Matrix3d::Zero();
+  double squares = 0.0;
+  for (std::size_t i = 0; i < found_mm.size(); ++i) {
+    const Eigen::Vector3d c = certified_mm[i] - certified_mean;
+    const Eigen::Vector3d f = found_mm[i] - found_mean;
+    product += f * c.transpose();
+    squares += c.squaredNorm() + f.squaredNorm();
+  }
+  const Eigen::Vector3d s = Eigen::JacobiSVD<Eigen::Matrix3d>(product).singularValues();
+  const double sign = product.determinant() < 0.0 ? -1.0 : 1.0;
+  const auto rms = [&](double last) {
+    return std::sqrt(std::max(0.0, squares - 2.0 * (s(0) + s(1) + last * s(2))) / n);
+  };
+  return {rms(sign), rms(-sign)};
 }
 
 }  // namespace
@@ -165,6 +197,7 @@ void TouchList::checkAgainst(const MachineDescription& machine) const {
   }
   // Distances between features tell millimetres from inches whatever the zero point is.
   std::vector<double> ratios;
+  std::string mirrored;
   for (const std::string& id : artefacts()) {
     const Artefact& artefact = *machine.findArtefact(id);
     const std::vector<std::string> names = featureNames(artefact);
@@ -189,6 +222,22 @@ void TouchList::checkAgainst(const MachineDescription& machine) const {
         const double measured = (a->second.first / a->second.second - b->second.first / b->second.second).norm();
         if (expected > 0.0) ratios.push_back(measured / expected);
       }
+    }
+    if (artefact.kind != "balls") continue;
+    std::vector<Eigen::Vector3d> certified;
+    std::vector<Eigen::Vector3d> found;
+    for (const auto& [name, sum] : centres) {
+      certified.push_back(nominal(name));
+      found.emplace_back(sum.first / sum.second);
+    }
+    const Handedness hand = handednessOf(certified, found);
+    constexpr double clear = 10.0;  // a knocked or swapped ball fits neither way
+    if (found.size() >= 4 && hand.turned_mm > 1.0 && clear * hand.mirrored_mm < hand.turned_mm) {
+      mirrored = fmt::format(
+          "the balls of {} lie as in a mirror: {:.3g} mm from the certificate, {:.3g} mm from its mirror image, so two "
+          "columns are swapped or one has the wrong sign; allowed: x_mm, y_mm and z_mm of a right-handed system, as "
+          "certified_mm in the machine file.",
+          id, hand.turned_mm, hand.mirrored_mm);
     }
   }
   if (!ratios.empty()) {
@@ -217,6 +266,7 @@ void TouchList::checkAgainst(const MachineDescription& machine) const {
                        "allowed: millimetres in both files.");
     }
   }
+  if (!mirrored.empty()) throw InputError({file, ""}, mirrored);
 }
 
 std::string TouchList::csv() const {

@@ -11832,6 +11832,26 @@ endgültig fehlgeschlagen: {}</translation>
         <source>is not there any more (removed, renamed, or its disk or network folder is gone). Nothing was stored; bring the folder back, and what has arrived meanwhile is stored.</source>
         <translation>ist nicht mehr vorhanden (entfernt, umbenannt, oder der Datenträger oder Netzwerkordner fehlt). Nichts wurde gespeichert; den Ordner zurückholen, dann wird gespeichert, was inzwischen eingetroffen ist.</translation>
     </message>
+    <message>
+        <source>the images {} of {} in state {} move by {:.4g} mm along {} and by {:.4g} mm along {}; allowed: a movement along {} (are two columns or the roles swapped?).</source>
+        <translation>die Bilder {} von {} im Zustand {} bewegen sich um {:.4g} mm entlang {} und um {:.4g} mm entlang {}; zulässig: eine Bewegung entlang {} (sind zwei Spalten oder die Rollen vertauscht?).</translation>
+    </message>
+    <message>
+        <source>none of the {} touches of {} lies where the machine file has its features, this one for instance: {}; allowed: x_mm, y_mm and z_mm in the machine&apos;s coordinates (two columns swapped, a wrong sign, or another place, direction or order of the features?).</source>
+        <translation>keine der {} Antastungen von {} liegt dort, wo die Maschinendatei seine Merkmale hat, zum Beispiel diese: {}; zulässig: x_mm, y_mm und z_mm in den Koordinaten der Maschine (zwei Spalten vertauscht, ein falsches Vorzeichen oder andere Lage, Richtung oder Reihenfolge der Merkmale?).</translation>
+    </message>
+    <message>
+        <source>the balls of {} lie as in a mirror: {:.3g} mm from the certificate, {:.3g} mm from its mirror image, so two columns are swapped or one has the wrong sign; allowed: x_mm, y_mm and z_mm of a right-handed system, as certified_mm in the machine file.</source>
+        <translation>die Kugeln von {} liegen wie im Spiegel: {:.3g} mm vom Zertifikat, {:.3g} mm von dessen Spiegelbild, also sind zwei Spalten vertauscht, oder eine hat das falsche Vorzeichen; zulässig: x_mm, y_mm und z_mm eines rechtshändigen Systems, wie certified_mm in der Maschinendatei.</translation>
+    </message>
+    <message>
+        <source>the images show the Y axis {:.1f}° clockwise from the X axis ({} in state {}); allowed: about 90° counter-clockwise, seen from above (has x_mm or y_mm the wrong sign?).</source>
+        <translation>die Bilder zeigen die Y-Achse {:.1f}° im Uhrzeigersinn von der X-Achse ({} im Zustand {}); zulässig: etwa 90° gegen den Uhrzeigersinn, von oben gesehen (hat x_mm oder y_mm das falsche Vorzeichen?).</translation>
+    </message>
+    <message>
+        <source>half of the {} points lie beyond {:.6g} mm although the axes travel {:g} mm: their positions look like micrometres; allowed: millimetres.</source>
+        <translation>die Hälfte der {} Punkte liegt jenseits von {:.6g} mm, obwohl die Achsen {:g} mm verfahren: ihre Positionen sehen nach Mikrometern aus; zulässig: Millimeter.</translation>
+    </message>
 </context>
 <context>
     <name>files</name>

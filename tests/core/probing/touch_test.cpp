@@ -102,6 +102,77 @@ TEST_F(TouchFile, InchesAreRecognised) {
   EXPECT_THROW((void)evaluateHoleCycles(list, holes, holes.artefacts.front()), InputError);
 }
 
+/// What the check of a list against the machine says, or an empty text.
+std::string checkOf(const TouchList& list, const MachineDescription& machine) {
+  try {
+    list.checkAgainst(machine);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+// Columns exported in another order, a sign of another control, a left-handed certificate: balls may stand in any
+// direction, so that the evaluation would give wrong axes without a word.
+TEST_F(TouchFile, BallsAsInAMirrorAreRefused) {
+  const MachineDescription balls = machineFrom(ballMachineText());
+  const TouchList right = runCycles(balls, 2, {}, 1).list;
+  EXPECT_EQ(checkOf(right, balls), "");
+  TouchList turned = right;  // another place on the table is allowed
+  for (Touch& t : turned.touches) {
+    t.position_mm = Eigen::Vector3d(400.0 - t.position_mm.y(), t.position_mm.x(), t.position_mm.z());
+    t.approach = Eigen::Vector3d(-t.approach.y(), t.approach.x(), t.approach.z());
+  }
+  EXPECT_EQ(checkOf(turned, balls), "");
+  const std::string mirror = "touches.csv: the balls of balls lie as in a mirror";
+  const auto refused = [&](const TouchList& list, const MachineDescription& machine) {
+    TouchList named = list;
+    named.file = "touches.csv";
+    return checkOf(named, machine);
+  };
+  TouchList swapped = right;
+  TouchList swapped_positions = right;
+  TouchList negative = right;
+  for (std::size_t i = 0; i < right.touches.size(); ++i) {
+    std::swap(swapped.touches[i].position_mm.x(), swapped.touches[i].position_mm.y());
+    std::swap(swapped.touches[i].approach.x(), swapped.touches[i].approach.y());
+    std::swap(swapped_positions.touches[i].position_mm.x(), swapped_positions.touches[i].position_mm.y());
+    negative.touches[i].position_mm.z() *= -1.0;
+  }
+  for (const TouchList* list : {&swapped, &swapped_positions, &negative}) {
+    EXPECT_EQ(refused(*list, balls).find(mirror), 0U) << refused(*list, balls);
+  }
+  MachineDescription left_handed = balls;
+  for (ArtefactBall& ball : left_handed.artefacts.front().balls)
+    std::swap(ball.certified_mm.x(), ball.certified_mm.y());
+  EXPECT_EQ(refused(right, left_handed).find(mirror), 0U) << refused(right, left_handed);
+  MachineDescription other_order = balls;  // swapped names are another mistake, told from the distances
+  std::swap(other_order.artefacts.front().balls[1].certified_mm, other_order.artefacts.front().balls[2].certified_mm);
+  EXPECT_EQ(refused(right, other_order), "");
+}
+
+// The program ended with a crash where every touch of a bar was left out.
+TEST_F(TouchFile, AListOfWhichNothingFitsIsRefused) {
+  const MachineDescription bar = machineFrom(holeMachineText());
+  const TouchList right = runCycles(bar, 3, {}, 1).list;
+  TouchList negative = right;
+  for (Touch& t : negative.touches) t.position_mm.x() *= -1.0;
+  negative.file = "touches.csv";
+  for (std::size_t i = 0; i < negative.touches.size(); ++i) negative.touches[i].line = i + 2;
+  try {
+    (void)evaluateHoleCycles(negative, bar, bar.artefacts.front());
+    FAIL() << "a list with the wrong sign was evaluated";
+  } catch (const InputError& error) {
+    const std::string sentence = error.what();
+    EXPECT_EQ(sentence.find("touches.csv, line "), 0U) << sentence;
+    EXPECT_NE(sentence.find("none of the "), std::string::npos) << sentence;
+    EXPECT_NE(sentence.find("away from H"), std::string::npos) << sentence;
+  }
+  MachineDescription reversed = bar;
+  reversed.artefacts.front().direction_at_c0 *= -1.0;
+  EXPECT_THROW((void)evaluateHoleCycles(right, reversed, reversed.artefacts.front()), InputError);
+}
+
 TEST_F(TouchFile, MetresAreRecognised) {
   const MachineDescription bar = machineFrom(holeMachineText());
   const auto complaint = [](const TouchList& list, const MachineDescription& machine) {

@@ -108,6 +108,8 @@ std::span<const char* const> spindrift::gui::core_formats::imaging() noexcept {
     QT_TRANSLATE_NOOP("core", "the image is white: 95 % of its pixels are at or above level {:.0f} of 255"),
     QT_TRANSLATE_NOOP("core", "the image shows no contrast: levels {:.0f} to {:.0f} with noise of {:.1f}"),
     QT_TRANSLATE_NOOP("core", "the images do not show different spindle orientations"),
+    QT_TRANSLATE_NOOP("core", "the images show the Y axis {:.1f}° clockwise from the X axis ({} in state {}); allowed: about 90° counter-clockwise, seen from above (has x_mm or y_mm the wrong sign?)."),
+    QT_TRANSLATE_NOOP("core", "the images {} of {} in state {} move by {:.4g} mm along {} and by {:.4g} mm along {}; allowed: a movement along {} (are two columns or the roles swapped?)."),
     QT_TRANSLATE_NOOP("core", "the line is wider than half a semi-axis; a thinner one is needed."),
     QT_TRANSLATE_NOOP("core", "the log does not show whether it was at rest"),
     QT_TRANSLATE_NOOP("core", "the marks do not fix the place of the image: {}."),

@@ -83,6 +83,7 @@ std::span<const char* const> spindrift::gui::core_formats::machine() noexcept {
     QT_TRANSLATE_NOOP("core", "four numbers x, y, z, r with r > 0"),
     QT_TRANSLATE_NOOP("core", "front of the column"),
     QT_TRANSLATE_NOOP("core", "greater than zero"),
+    QT_TRANSLATE_NOOP("core", "half of the {} points lie beyond {:.6g} mm although the axes travel {:g} mm: their positions look like micrometres; allowed: millimetres."),
     QT_TRANSLATE_NOOP("core", "head tilt about {}"),
     QT_TRANSLATE_NOOP("core", "holds no observation; allowed: at least one row per point."),
     QT_TRANSLATE_NOOP("core", "holds no prediction; allowed: at least one row."),
