@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/imaging/axis_directions.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -102,6 +105,7 @@ AxisDirections fitAxisDirections(const std::vector<AxisSet>& sets, const AxisOpt
   const double variance =
       dof > 0.0 ? chi2 / dof : options.expected_repeatability_um * options.expected_repeatability_um;
   result.repeatability_um = std::sqrt(variance);
+  result.repeatability_sigma_um = result.repeatability_um / std::sqrt(2.0 * std::max(dof, 1.0));
   for (std::size_t i = 0; i < sets.size(); ++i) {
     SetDirections directions;
     directions.fiducial = sets[i].fiducial;
@@ -133,6 +137,24 @@ AxisDirections fitAxisDirections(const std::vector<AxisSet>& sets, const AxisOpt
   if (result.sets.empty()) {
     result.status = FitStatus::Degenerate;
     result.message = "no images along the machine's X or Y axis could be used";
+    return result;
+  }
+  // A column with the wrong sign: X and Y as in a mirror.
+  const SetDirections* mirrored = nullptr;
+  bool all_mirrored = true;
+  for (const SetDirections& d : result.sets) {
+    if (!d.both) continue;
+    const bool clockwise = std::abs(d.orthogonality_rad) > std::numbers::pi / 2;
+    all_mirrored = all_mirrored && clockwise;
+    if (clockwise && mirrored == nullptr) mirrored = &d;
+  }
+  if (mirrored != nullptr && all_mirrored) {
+    result.status = FitStatus::Rejected;
+    result.message = fmt::format(
+        "the images show the Y axis {:.1f}° clockwise from the X axis ({} in state {}); allowed: about 90° "
+        "counter-clockwise, seen from above (has x_mm or y_mm the wrong sign?).",
+        -angleDifference(mirrored->orthogonality_rad + std::numbers::pi / 2, 0.0) * deg_per_rad, mirrored->fiducial,
+        mirrored->state);
     return result;
   }
   double weights = 0.0;

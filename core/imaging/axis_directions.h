@@ -63,14 +63,17 @@ struct AxisDirections {
   FitStatus status = FitStatus::NotRun;
   std::string message;
   std::vector<SetDirections> sets;
-  double repeatability_um = 0.0;  ///< of the positions about the lines
-  bool pooled = false;            ///< phi holds for all
-  double phi_rad = 0.0;           ///< weighted mean
-  double phi_sigma_rad = 0.0;     ///< widened by the scatter if the test fails
-  double p_value = 1.0;           ///< of one phi for all
+  double repeatability_um = 0.0;  ///< standard deviation of the positions about the lines
+  /// Standard uncertainty of it from its degrees of freedom nu (ISO/TR 230-9): s / sqrt(2 nu).
+  double repeatability_sigma_um = 0.0;
+  bool pooled = false;         ///< phi holds for all
+  double phi_rad = 0.0;        ///< weighted mean
+  double phi_sigma_rad = 0.0;  ///< widened by the scatter if the test fails
+  double p_value = 1.0;        ///< of one phi for all
 };
 
-/// Sets need >= 2 positions along at least one axis, else they are left out. Degenerate if none remains.
+/// Sets need >= 2 positions along at least one axis, else they are left out. Degenerate if none remains; Rejected where
+/// all sets have Y clockwise from X, as no machine has it.
 [[nodiscard]] AxisDirections fitAxisDirections(const std::vector<AxisSet>& sets, const AxisOptions& options = {});
 
 /// Difference of two angles in (-pi, pi].

@@ -136,6 +136,7 @@ nlohmann::json detailsOf(const FiducialCaptureList& list, const FiducialImages& 
     camera["direction_pooled"] = d.axes.pooled;
     camera["direction_p_value"] = jsonNumber(d.axes.p_value);
     camera["position_repeatability_um"] = jsonNumber(d.axes.repeatability_um);
+    camera["position_repeatability_standard_uncertainty_um"] = jsonNumber(d.axes.repeatability_sigma_um);
   }
   nlohmann::json centre{{"status", toString(d.centres.status)}};
   if (d.centres.status == FitStatus::Converged) {
@@ -143,6 +144,8 @@ nlohmann::json detailsOf(const FiducialCaptureList& list, const FiducialImages& 
     centre["p_value_all"] = jsonNumber(d.centres.p_value_all);
     centre["p_value_per_state"] = jsonNumber(d.centres.p_value_per_state);
     centre["spindle_repeatability_um"] = jsonNumber(d.centres.repeatability_um);
+    centre["spindle_repeatability_standard_uncertainty_um"] =
+        jsonNumber(d.centres.repeatability_um / std::sqrt(2.0 * std::max(d.centres.degrees_of_freedom, 1.0)));
     centre["degrees_of_freedom"] = d.centres.degrees_of_freedom;
     if (count > 0.0) centre["algebraic_minus_joint_um"] = algebraicJson(d.centres, pixel_length / count);
   }

@@ -28,6 +28,30 @@ std::vector<std::string> distinct(const std::vector<FiducialCapture>& captures, 
   return names;
 }
 
+/// Images along one axis that by the list move along the other one: two columns are swapped, or the roles.
+void requireMovementAlongTheAxis(const FiducialCaptureList& list, const std::vector<SourcePlace>& places) {
+  std::map<std::tuple<std::string, std::string, CaptureRole>, std::vector<std::size_t>> sets;
+  for (std::size_t i = 0; i < list.captures.size(); ++i) {
+    const FiducialCapture& c = list.captures[i];
+    if (c.role == CaptureRole::XAxis || c.role == CaptureRole::YAxis) sets[{c.state, c.fiducial, c.role}].push_back(i);
+  }
+  for (const auto& [key, members] : sets) {
+    const auto& [state, fiducial, role] = key;
+    const Eigen::Vector3d& from = list.captures[members.front()].position_mm;
+    Eigen::Vector3d moved = Eigen::Vector3d::Zero();
+    for (const std::size_t i : members) moved = moved.cwiseMax((list.captures[i].position_mm - from).cwiseAbs());
+    const int own = role == CaptureRole::XAxis ? 0 : 1;
+    constexpr double clear = 10.0;
+    constexpr double telling_mm = 0.01;
+    if (!(moved(1 - own) > telling_mm && moved(1 - own) > clear * moved(own))) continue;
+    throw InputError(
+        places[members.back()],
+        fmt::format("the images {} of {} in state {} move by {:.4g} mm along {} and by {:.4g} mm along "
+                    "{}; allowed: a movement along {} (are two columns or the roles swapped?).",
+                    toString(role), fiducial, state, moved(1 - own), "XY"[1 - own], moved(own), "XY"[own], "XY"[own]));
+  }
+}
+
 }  // namespace
 
 std::string_view toString(CaptureRole role) noexcept {
@@ -63,6 +87,7 @@ FiducialCaptureList readFiducialCaptures(const std::filesystem::path& file) {
   InsideFolder folder(std::filesystem::absolute(file).parent_path().parent_path());
   std::map<std::string, double> last_time;
   std::map<std::tuple<std::string, std::string, CaptureRole, int>, std::size_t> seen;
+  std::vector<SourcePlace> places;
   for (std::size_t row = 0; row < table.rowCount(); ++row) {
     FiducialCapture c;
     c.time_s = table.number(row, time);
@@ -104,7 +129,9 @@ FiducialCaptureList readFiducialCaptures(const std::filesystem::path& file) {
                                    toString(c.role), c.index, c.fiducial, c.state, table.place(same->second).words()));
     }
     list.captures.push_back(std::move(c));
+    places.push_back(table.place(row));
   }
+  requireMovementAlongTheAxis(list, places);
   if (list.captures.empty()) throw InputError({file, ""}, "lists no image; allowed: at least one row.");
   return list;
 }

@@ -498,6 +498,7 @@ FiducialDisplacement findFiducialDisplacement(const FiducialCaptureList& list, c
         {group.fiducial, group.state, axisImages(list, images, group.x_axis), axisImages(list, images, group.y_axis)});
   }
   out.axes = fitAxisDirections(axis_sets);
+  if (out.axes.status == FitStatus::Rejected) throw InputError({list.file, ""}, out.axes.message);
   const bool oriented = out.axes.status == FitStatus::Converged;
   if (oriented) {
     findDirections(list, images, groups, out);

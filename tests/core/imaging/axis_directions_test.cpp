@@ -85,6 +85,42 @@ TEST(AxisDirections, ACameraThatTurnedIsNotPooled) {
   EXPECT_GT(result.phi_sigma_rad, 0.003);
 }
 
+// With the sign of one column wrong, errors came out along wrong axes beside a note on the camera.
+TEST(AxisDirections, AxesAsInAMirrorAreRejected) {
+  for (const int axis : {0, 1}) {
+    Random random(5);
+    auto sets = makeSets(random, {0.02, -0.01}, {0.1, 0.1}, 0.25);
+    for (AxisSet& set : sets) {
+      for (std::vector<AxisImage>* images : {&set.x, &set.y})
+        for (AxisImage& image : *images) image.commanded_mm[axis] *= -1.0;
+    }
+    const AxisDirections result = fitAxisDirections(sets);
+    EXPECT_EQ(result.status, FitStatus::Rejected);
+    EXPECT_EQ(result.message.find("the images show the Y axis 9"), result.message.find("the images show the Y axis "))
+        << result.message;
+    EXPECT_NE(result.message.find("clockwise from the X axis (F1 in state M0)"), std::string::npos) << result.message;
+    // One set alone does not stop the others.
+    auto one = makeSets(random, {0.02, -0.01}, {0.1, 0.1}, 0.25);
+    for (AxisImage& image : one[1].x) image.commanded_mm.x() *= -1.0;
+    EXPECT_EQ(fitAxisDirections(one).status, FitStatus::Converged);
+  }
+}
+
+TEST(AxisDirections, RepeatabilityCarriesItsUncertainty) {
+  constexpr int campaigns = 400;
+  double mean = 0.0, squares = 0.0, stated = 0.0;
+  for (int n = 0; n < campaigns; ++n) {
+    Random random(static_cast<std::uint64_t>(n));
+    const AxisDirections result =
+        fitAxisDirections(makeSets(random, {0.02, -0.01}, {0.1, 0.1}, 0.5), {.expected_weight = 0.0});
+    mean += result.repeatability_um / campaigns;
+    squares += result.repeatability_um * result.repeatability_um / campaigns;
+    stated += result.repeatability_sigma_um / campaigns;
+  }
+  EXPECT_NEAR(mean, 0.5, 0.02);
+  EXPECT_NEAR(stated / std::sqrt(squares - mean * mean), 1.0, 0.12);
+}
+
 TEST(AxisDirections, WithoutImagesDegenerate) {
   EXPECT_EQ(fitAxisDirections({}).status, FitStatus::Degenerate);
 }

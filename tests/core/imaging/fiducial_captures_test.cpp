@@ -52,6 +52,23 @@ TEST(FiducialCaptures, RefusesWithPlaceAndValue) {
   EXPECT_THAT(errorOf(std::string(header)), HasSubstr("lists no image"));
 }
 
+// Exported with x and y swapped the evaluation ended with "no images along X or Y could be used" and status 0.
+TEST(FiducialCaptures, ImagesAlongXMoveAlongX) {
+  const std::string rows =
+      "0,M0,F1,x_axis,0,20,15,0,0,a.jpg\n1,M0,F1,x_axis,1,20.5,15.001,0,0,b.jpg\n"
+      "2,M0,F1,y_axis,0,20,15,0,0,c.jpg\n3,M0,F1,y_axis,1,20,15.5,0,0,d.jpg\n";
+  EXPECT_EQ(errorOf(std::string(header) + rows), "");
+  EXPECT_THAT(
+      errorOf(std::string(header) + "0,M0,F1,x_axis,0,15,20,0,0,a.jpg\n1,M0,F1,x_axis,1,15.001,20.5,0,0,b.jpg\n"),
+      HasSubstr("line 3: the images x_axis of F1 in state M0 move by 0.5 mm along Y and by 0.001 mm along X; allowed: "
+                "a movement along X (are two columns or the roles swapped?)."));
+  EXPECT_THAT(errorOf(std::string(header) + "0,M0,F1,y_axis,0,15,20,0,0,a.jpg\n1,M0,F1,y_axis,1,15.5,20,0,0,b.jpg\n"),
+              HasSubstr("y_axis of F1 in state M0 move by 0.5 mm along X and by 0 mm along Y"));
+  // A list that still arrives, and images that do not move yet, are no mistake.
+  EXPECT_EQ(errorOf(std::string(header) + "0,M0,F1,x_axis,0,15,20,0,0,a.jpg\n"), "");
+  EXPECT_EQ(errorOf(std::string(header) + "0,M0,F1,x_axis,0,15,20,0,0,a.jpg\n1,M0,F1,x_axis,1,15,20,0,0,b.jpg\n"), "");
+}
+
 TEST(FiducialCaptures, ImagesStayInTheFolderOfTheCampaign) {
   for (const std::string image : {"/etc/passwd", "../a.jpg", "captures/../../a.jpg", ".."})
     EXPECT_THAT(errorOf(std::string(header) + "5,M0,F1,rotation,0,1,2,3,0," + image + "\n"),
