@@ -81,7 +81,7 @@ Campaign Campaign::read(const std::filesystem::path& folder) {
   for (const char* read_elsewhere : {"observations.cov.csv", "pattern.json", "warm_up.csv"}) (void)own(read_elsewhere);
   if (const std::filesystem::path observations = own("observations.csv"); std::filesystem::exists(observations)) {
     campaign.observations = ObservationSet::read(observations);
-    refusePositionsInMetres(*campaign.observations, campaign.machine);
+    refusePositionsInAnotherUnit(*campaign.observations, campaign.machine);
     campaign.observations.edit().absolute = campaign.absolute;
   }
   return campaign;

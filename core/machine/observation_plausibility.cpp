@@ -237,7 +237,7 @@ ObservationSet withoutRows(const ObservationSet& observations, const std::vector
   return out;
 }
 
-void refusePositionsInMetres(const ObservationSet& observations, const MachineDescription& machine) {
+void refusePositionsInAnotherUnit(const ObservationSet& observations, const MachineDescription& machine) {
   constexpr double rounding_mm = 1e-9;
   double travel_mm = 0.0;
   for (const LinearAxis& axis : machine.axes)
@@ -248,6 +248,15 @@ void refusePositionsInMetres(const ObservationSet& observations, const MachineDe
     places.try_emplace(o.point, o.position_mm);
     reach_mm = std::max(reach_mm, o.position_mm.cwiseAbs().maxCoeff());
   }
+  const SourcePlace file{observations.file.empty() ? machine.file : observations.file, ""};
+  constexpr double beyond_any = 10.0;
+  std::vector<double> reaches;
+  for (const auto& place : places) reaches.push_back(place.second.cwiseAbs().maxCoeff());
+  if (travel_mm > 0.0 && !reaches.empty() && median(reaches) > beyond_any * travel_mm) {
+    throw InputError(file, fmt::format("half of the {} points lie beyond {:.6g} mm although the axes travel {:g} mm: "
+                                       "their positions look like micrometres; allowed: millimetres.",
+                                       places.size(), median(reaches), travel_mm));
+  }
   const bool apart = std::any_of(places.begin(), places.end(), [&](const auto& place) {
     return (place.second - places.begin()->second).cwiseAbs().maxCoeff() > rounding_mm;
   });
@@ -255,7 +264,7 @@ void refusePositionsInMetres(const ObservationSet& observations, const MachineDe
   constexpr double beyond_travel = 1.1;
   if (!apart || !(reach_mm * mm_per_metre <= beyond_travel * travel_mm)) return;
   throw InputError(
-      {observations.file.empty() ? machine.file : observations.file, ""},
+      file,
       fmt::format("all {} points lie within {:.3g} mm although the axes travel {:g} mm: their positions look like "
                   "metres; allowed: millimetres.",
                   places.size(), reach_mm, travel_mm));

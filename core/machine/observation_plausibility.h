@@ -35,9 +35,9 @@ void rejectReading(const ImplausibleReading& reading, InstrumentEvaluation& eval
 /// The set without some of its rows (ascending), with what the others share.
 [[nodiscard]] ObservationSet withoutRows(const ObservationSet& observations, const std::vector<std::size_t>& rows);
 
-/// Throws InputError if the positions of the points are metres: all of them, of at least two points, lie within a
-/// thousandth of the travel of the machine.
-void refusePositionsInMetres(const ObservationSet& observations, const MachineDescription& machine);
+/// Throws InputError if the positions of the points are metres (all of them, of at least two points, lie within a
+/// thousandth of the travel of the machine) or micrometres (most lie beyond ten times its longest travel).
+void refusePositionsInAnotherUnit(const ObservationSet& observations, const MachineDescription& machine);
 
 /// One sentence if points lie outside the travel of the machine by more than a tenth of it: a file of another machine,
 /// another unit, or columns that were swapped. Empty otherwise.

@@ -91,7 +91,7 @@ CampaignEvaluation evaluateCampaign(const Campaign& campaign, const EvaluateOpti
   if (scans) evaluation.instruments.push_back(evaluateScans(campaign, options.scan_model, job));
   for (InstrumentEvaluation& instrument : evaluation.instruments) {
     leaveOutImplausible(instrument);
-    refusePositionsInMetres(instrument.observations, campaign.machine);
+    refusePositionsInAnotherUnit(instrument.observations, campaign.machine);
     evaluation.observations.append(instrument.observations);
     evaluation.good_enough = evaluation.good_enough && instrument.good_enough;
   }
@@ -102,7 +102,7 @@ ObservationSet allObservationsOf(const Campaign& campaign, const std::filesystem
                                  const EvaluateOptions& options, JobContext& job) {
   if (!file.empty()) {
     ObservationSet set = ObservationSet::read(file);
-    refusePositionsInMetres(set, campaign.machine);
+    refusePositionsInAnotherUnit(set, campaign.machine);
     return set;
   }
   if (campaign.observations) return *campaign.observations;

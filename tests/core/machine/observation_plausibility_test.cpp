@@ -116,7 +116,7 @@ TEST(ObservationPlausibility, AnEvaluationListsThemAndIsNotGoodEnough) {
   EXPECT_THAT(implausibleReadings(withoutRows(set, found[0].rows)), IsEmpty());
 }
 
-TEST(ObservationPlausibility, PositionsInMetresAreRefused) {
+TEST(ObservationPlausibility, PositionsInAnotherUnitAreRefused) {
   MachineDescription machine;
   for (const char* name : {"X", "Y"}) {
     LinearAxis axis;
@@ -125,18 +125,26 @@ TEST(ObservationPlausibility, PositionsInMetresAreRefused) {
     machine.axes.push_back(axis);
   }
   ObservationSet set = ObservationSet::parse(campaignText(2, ""), "observations.csv");
-  EXPECT_NO_THROW(refusePositionsInMetres(set, machine));
+  EXPECT_NO_THROW(refusePositionsInAnotherUnit(set, machine));
   for (Observation& o : set.rows) o.position_mm *= 1e-3;
   try {
-    refusePositionsInMetres(set, machine);
+    refusePositionsInAnotherUnit(set, machine);
     FAIL() << "metres were believed";
   } catch (const InputError& e) {
     EXPECT_THAT(e.what(), HasSubstr("observations.csv: all 3 points lie within 0.1 mm although the axes travel 300 mm: "
                                     "their positions look like metres; allowed: millimetres."));
   }
+  for (Observation& o : set.rows) o.position_mm *= 1e6;
+  try {
+    refusePositionsInAnotherUnit(set, machine);
+    FAIL() << "micrometres were believed";
+  } catch (const InputError& e) {
+    EXPECT_THAT(e.what(), HasSubstr("observations.csv: half of the 3 points lie beyond 80000 mm although the axes "
+                                    "travel 300 mm: their positions look like micrometres; allowed: millimetres."));
+  }
   // One place is no unit.
   for (Observation& o : set.rows) o.position_mm = {0.01, 0.02, 0.0};
-  EXPECT_NO_THROW(refusePositionsInMetres(set, machine));
+  EXPECT_NO_THROW(refusePositionsInAnotherUnit(set, machine));
 }
 
 }  // namespace
