@@ -10,17 +10,22 @@
 namespace spindrift::decoding {
 namespace {
 
-double distanceToStroke(const PatternStroke& stroke, double x, double y) {
-  const Eigen::Vector2d p(x, y);
-  if (stroke.size() == 1) return (p - stroke[0]).norm();
-  double best = std::numeric_limits<double>::infinity();
-  for (std::size_t k = 0; k + 1 < stroke.size(); ++k) {
-    const Eigen::Vector2d along = stroke[k + 1] - stroke[k];
-    const double length2 = along.squaredNorm();
-    const double t = length2 > 0.0 ? std::clamp((p - stroke[k]).dot(along) / length2, 0.0, 1.0) : 0.0;
-    best = std::min(best, (p - stroke[k] - t * along).squaredNorm());
+/// Lowers squared distances of the samples at (x, y) to those to one piece of a stroke, from `from` to `to`.
+void lowerToPiece(const NumberLibrary::Cell& x, const NumberLibrary::Cell& y, const Eigen::Vector2f& from,
+                  const Eigen::Vector2f& to, NumberLibrary::Cell& squared) {
+  const Eigen::Vector2f along = to - from;
+  const float length2 = along.squaredNorm();
+  const float per_length2 = length2 > 0.0F ? 1.0F / length2 : 0.0F;
+  const float ux = along.x();
+  const float uy = along.y();
+  for (int k = 0; k < NumberLibrary::samples; ++k) {
+    const float dx = x[k] - from.x();
+    const float dy = y[k] - from.y();
+    const float t = std::min(std::max((dx * ux + dy * uy) * per_length2, 0.0F), 1.0F);
+    const float ex = dx - t * ux;
+    const float ey = dy - t * uy;
+    squared[k] = std::min(squared[k], ex * ex + ey * ey);
   }
-  return std::sqrt(best);
 }
 
 /// Mean 0, length 1; false if the cell is flat.
@@ -65,16 +70,22 @@ NumberLibrary::NumberLibrary(const FiducialPattern& pattern)
     : half_line_um_(0.5 * pattern.digit_line_width_um),
       step_x_um_(2.0 * pattern.digit_offset_x_um / columns),
       step_y_um_(2.0 * pattern.digit_offset_y_um / rows) {
-  for (int digit = 0; digit < 10; ++digit) {
-    for (int j = 0; j < rows; ++j) {
-      for (int i = 0; i < columns; ++i) {
-        const double x = (i + 0.5 - 0.5 * columns) * step_x_um_;
-        const double y = (j + 0.5 - 0.5 * rows) * step_y_um_;
-        double best = std::numeric_limits<double>::infinity();
-        for (const PatternStroke& stroke : pattern.digits[digit]) best = std::min(best, distanceToStroke(stroke, x, y));
-        distance_um_[digit][j * columns + i] = static_cast<float>(best);
-      }
+  Cell x{};
+  Cell y{};
+  for (int j = 0; j < rows; ++j) {
+    for (int i = 0; i < columns; ++i) {
+      x[j * columns + i] = static_cast<float>((i + 0.5 - 0.5 * columns) * step_x_um_);
+      y[j * columns + i] = static_cast<float>((j + 0.5 - 0.5 * rows) * step_y_um_);
     }
+  }
+  for (int digit = 0; digit < 10; ++digit) {
+    Cell& distance = distance_um_[digit];
+    distance.fill(std::numeric_limits<float>::max());
+    for (const PatternStroke& stroke : pattern.digits[digit]) {
+      for (std::size_t k = 0; k + 1 < std::max<std::size_t>(stroke.size(), 2); ++k)
+        lowerToPiece(x, y, stroke[k].cast<float>(), stroke[std::min(k + 1, stroke.size() - 1)].cast<float>(), distance);
+    }
+    for (float& d : distance) d = std::sqrt(d);
   }
 }
 

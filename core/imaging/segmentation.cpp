@@ -26,17 +26,12 @@ struct ThresholdGrid {
   }
 };
 
-/// The image reduced 2:1; every pixel the mean of four.
-struct HalfImage {
-  int width = 0;
-  int height = 0;
-  std::vector<std::uint8_t> pixels;
-  [[nodiscard]] std::uint8_t* row(int y) { return pixels.data() + static_cast<std::size_t>(y) * width; }
-};
-
-/// Means of 2 x 2 pixels of two rows, rounded, and the darkest and brightest of each column so far.
-void halveRows(const std::uint8_t* upper, const std::uint8_t* lower, int width, std::uint8_t* out, std::uint8_t* low,
-               std::uint8_t* high) {
+/// Means of 2 x 2 pixels of two rows, rounded; with `Levels` also the darkest and brightest of each column so far. The
+/// reduced image is made row by row, twice, and never kept: to make it again takes 0.1 ms, to get the pages of the
+/// memory for it from the system 2 ms, once in each process and thread.
+template <bool Levels>
+void halveRows(const std::uint8_t* upper, const std::uint8_t* lower, int width, std::uint8_t* out,
+               [[maybe_unused]] std::uint8_t* low = nullptr, [[maybe_unused]] std::uint8_t* high = nullptr) {
   int x = 0;
 #if defined(__SSE2__)
   const __m128i even = _mm_set1_epi16(0x00FF);
@@ -50,42 +45,46 @@ void halveRows(const std::uint8_t* upper, const std::uint8_t* lower, int width, 
   };
   for (; x + 16 <= width; x += 16) {
     const __m128i mean = _mm_packus_epi16(eight(2 * x), eight(2 * x + 16));
-    auto* const lo = reinterpret_cast<__m128i*>(low + x);
-    auto* const hi = reinterpret_cast<__m128i*>(high + x);
     _mm_storeu_si128(reinterpret_cast<__m128i*>(out + x), mean);
-    _mm_storeu_si128(lo, _mm_min_epu8(_mm_loadu_si128(lo), mean));
-    _mm_storeu_si128(hi, _mm_max_epu8(_mm_loadu_si128(hi), mean));
+    if constexpr (Levels) {
+      auto* const lo = reinterpret_cast<__m128i*>(low + x);
+      auto* const hi = reinterpret_cast<__m128i*>(high + x);
+      _mm_storeu_si128(lo, _mm_min_epu8(_mm_loadu_si128(lo), mean));
+      _mm_storeu_si128(hi, _mm_max_epu8(_mm_loadu_si128(hi), mean));
+    }
   }
 #endif
   for (; x < width; ++x) {
     const int sum = upper[2 * x] + upper[2 * x + 1] + lower[2 * x] + lower[2 * x + 1];
     out[x] = static_cast<std::uint8_t>((sum + 2) >> 2);
-    low[x] = std::min(low[x], out[x]);
-    high[x] = std::max(high[x], out[x]);
+    if constexpr (Levels) {
+      low[x] = std::min(low[x], out[x]);
+      high[x] = std::max(high[x], out[x]);
+    }
   }
 }
 
-/// Reduces the image and looks for the levels of its tiles on the way: the only pass over all pixels.
-ThresholdGrid reduce(const GrayImage& image, HalfImage& half) {
-  half.width = image.width() / 2;
-  half.height = image.height() / 2;
-  half.pixels.resize(static_cast<std::size_t>(half.width) * half.height);
+/// The levels of the tiles of the image reduced 2:1.
+ThresholdGrid thresholdsOf(const GrayImage& image) {
+  const int width = image.width() / 2;
+  const int height = image.height() / 2;
   ThresholdGrid grid;
-  grid.columns = (half.width + tile - 1) / tile;
-  grid.rows = (half.height + tile - 1) / tile;
+  grid.columns = (width + tile - 1) / tile;
+  grid.rows = (height + tile - 1) / tile;
   const std::size_t count = static_cast<std::size_t>(grid.columns) * grid.rows;
   std::vector<std::uint8_t> low(count);
   std::vector<std::uint8_t> high(count);
-  std::vector<std::uint8_t> column_low(half.width);
-  std::vector<std::uint8_t> column_high(half.width);
+  std::vector<std::uint8_t> row(width);
+  std::vector<std::uint8_t> column_low(width);
+  std::vector<std::uint8_t> column_high(width);
   for (int j = 0; j < grid.rows; ++j) {
     std::fill(column_low.begin(), column_low.end(), std::uint8_t{255});
     std::fill(column_high.begin(), column_high.end(), std::uint8_t{0});
-    for (int y = j * tile; y < std::min(half.height, (j + 1) * tile); ++y) {
-      halveRows(image.row(2 * y), image.row(2 * y + 1), half.width, half.row(y), column_low.data(), column_high.data());
+    for (int y = j * tile; y < std::min(height, (j + 1) * tile); ++y) {
+      halveRows<true>(image.row(2 * y), image.row(2 * y + 1), width, row.data(), column_low.data(), column_high.data());
     }
     for (int i = 0; i < grid.columns; ++i) {
-      const int end = std::min(half.width, (i + 1) * tile);
+      const int end = std::min(width, (i + 1) * tile);
       const std::size_t k = static_cast<std::size_t>(j) * grid.columns + i;
       low[k] = *std::min_element(column_low.begin() + i * tile, column_low.begin() + end);
       high[k] = *std::max_element(column_high.begin() + i * tile, column_high.begin() + end);
@@ -238,19 +237,22 @@ struct Sums {
 std::vector<Mark> findMarks(const GrayImage& image, const MarkLimits& limits) {
   std::vector<Mark> marks;
   if (image.width() < 16 || image.height() < 16) return marks;
-  HalfImage half;
-  const ThresholdGrid grid = reduce(image, half);
+  const int width = image.width() / 2;
+  const int height = image.height() / 2;
+  const ThresholdGrid grid = thresholdsOf(image);
 
   std::vector<Run> runs;
-  runs.reserve(static_cast<std::size_t>(half.height) * 24);
+  runs.reserve(static_cast<std::size_t>(height) * 24);
   std::vector<int> parent;
-  std::vector<std::uint8_t> threshold(half.width + 16);
+  std::vector<std::uint8_t> row(width);
+  std::vector<std::uint8_t> threshold(width + 16);
   std::size_t above_begin = 0;
   std::size_t above_end = 0;
-  for (int y = 0; y < half.height; ++y) {
-    if (y % 4 == 0) thresholdRow(grid, y + 2, half.width, threshold.data());
+  for (int y = 0; y < height; ++y) {
+    if (y % 4 == 0) thresholdRow(grid, y + 2, width, threshold.data());
     const std::size_t first = runs.size();
-    findRuns(half.row(y), threshold.data(), half.width, y, runs);
+    halveRows<false>(image.row(2 * y), image.row(2 * y + 1), width, row.data());
+    findRuns(row.data(), threshold.data(), width, y, runs);
     std::size_t above = above_begin;
     for (std::size_t k = first; k < runs.size(); ++k) {
       Run& run = runs[k];
@@ -285,7 +287,7 @@ std::vector<Mark> findMarks(const GrayImage& image, const MarkLimits& limits) {
   for (Sums& s : sums) {
     const int extent = std::max(s.max_x - s.min_x, s.max_y - s.min_y) + 1;
     if (extent < limits.min_semi_major_px * 0.7 || extent > limits.max_semi_major_px * 1.2) continue;
-    if (s.min_x == 0 || s.min_y == 0 || s.max_x == half.width - 1 || s.max_y == half.height - 1) continue;
+    if (s.min_x == 0 || s.min_y == 0 || s.max_x == width - 1 || s.max_y == height - 1) continue;
     s.flush();
     const double mx = s.x / s.n;
     const double my = s.y1 / s.n;

@@ -2,8 +2,12 @@
 // Accuracy and speed of the decoder on rendered images; the time also as a ratio to OpenCV's in the same run.
 //   decoder_study              accuracy over clean and hard images, then time beside OpenCV's marker detector
 //   decoder_study [--marks] IMAGE ...    decodes files, one line each and one per mark
+//   decoder_study --speed IMAGE ...      time of the first decoding of each file and of further ones, page faults of
+//                                        the first, thresholding and components of the same file
 // Options: --images N, --keep PREFIX (overlays), --speed (time only),
 // --each (one line an image). Times are processor times of one thread.
+#include <sys/resource.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -182,6 +186,40 @@ cv::Mat markerFrame(double noise) {
   return frame;
 }
 
+/// Thresholding and connected components of an image by OpenCV, ms of the processor.
+double componentsMilliseconds(const GrayImage& image) {
+  const cv::Mat seen(image.height(), image.width(), CV_8UC1, const_cast<std::uint8_t*>(image.data()));
+  cv::Mat bright;
+  cv::Mat labels;
+  return medianMilliseconds(9, [&] {
+    cv::adaptiveThreshold(seen, bright, 255, cv::ADAPTIVE_THRESH_MEAN_C, cv::THRESH_BINARY, 65, -12);
+    cv::connectedComponents(bright, labels, 8, CV_32S);
+  });
+}
+
+long pageFaults() {
+  rusage use{};
+  getrusage(RUSAGE_SELF, &use);
+  return use.ru_minflt;
+}
+
+/// What the first decoding of an image costs beside further ones; the first line is the first of the process.
+void speedOf(const char* file) {
+  const GrayImage image = readImage(file);
+  DecodeResult result;
+  const long faults = pageFaults();
+  const std::clock_t start = std::clock();
+  result = decodeImage(image, standardPattern());
+  const double first = 1e3 * static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+  const long first_faults = pageFaults() - faults;
+  const double again = medianMilliseconds(9, [&] { result = decodeImage(image, standardPattern()); });
+  std::printf(
+      "%s: first %.2f ms (%ld page faults), again %.2f ms (%zu ellipses, %zu circles%s); thresholding and components "
+      "%.2f ms\n",
+      file, first, first_faults, again, result.subpatterns.size(), result.circles.size(),
+      result.usable() ? "" : ", refused", componentsMilliseconds(image));
+}
+
 void speed() {
   cv::setNumThreads(1);
   const cv::Mat frame = markerFrame(0.0);  // without noise, which makes the marker detector slower
@@ -198,9 +236,6 @@ void speed() {
       scene.damaged_digits.clear();
       const GrayImage image = renderFiducial(standardPattern(), scene, 3);
       DecodeResult result;
-      const cv::Mat seen(image.height(), image.width(), CV_8UC1, const_cast<std::uint8_t*>(image.data()));
-      cv::Mat bright;
-      cv::Mat labels;
       std::vector<double> ratios;
       std::vector<double> over_components;
       double own = 0.0;
@@ -209,10 +244,7 @@ void speed() {
       for (int round = 0; round < 5; ++round) {
         aruco = medianMilliseconds(9, [&] { cv::aruco::detectMarkers(frame, dictionary, corners, ids, parameters); });
         own = medianMilliseconds(9, [&] { result = decodeImage(image, standardPattern()); });
-        components = medianMilliseconds(9, [&] {
-          cv::adaptiveThreshold(seen, bright, 255, cv::ADAPTIVE_THRESH_MEAN_C, cv::THRESH_BINARY, 65, -12);
-          cv::connectedComponents(bright, labels, 8, CV_32S);
-        });
+        components = componentsMilliseconds(image);
         ratios.push_back(own / aruco);
         over_components.push_back(own / components);
       }
@@ -249,6 +281,10 @@ int main(int argc, char** argv) {
       marks = true;
     } else {
       files = true;
+      if (only_speed) {
+        speedOf(argv[k]);
+        continue;
+      }
       const GrayImage image = readImage(argv[k]);
       const DecodeResult r = decodeImage(image, standardPattern());
       int doubtful = 0;
