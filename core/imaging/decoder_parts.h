@@ -148,7 +148,8 @@ struct MapFit {
 
 // ---- pose_check.cpp -----------------------------------------------------------------------------------------------
 
-/// Empty where the ellipses lie as a straight look from above (`map`) shows them; else the reason, one sentence.
+/// Empty where the ellipses lie as a straight look from above (`map`) shows them, within what a lens does to them and
+/// within their uncertainties (one image in 10,000 is refused by chance at most); else the reason, one sentence.
 [[nodiscard]] std::string whyThePoseDoesNotHold(const std::vector<Subpattern>& ellipses, const FiducialPattern& pattern,
                                                 const PatternMap& map);
 

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/imaging/decoder_parts.h"
+#include "core/math/distributions.h"
 #include "core/math/singular_values.h"
 
 namespace spindrift::decoding {
@@ -64,11 +65,35 @@ std::optional<Eigen::Matrix3d> projectionOf(const std::vector<Subpattern>& ellip
   return Eigen::Matrix3d(onto_back * projection * from_back.inverse());
 }
 
+/// What the median distance of ellipses that lie where they should stays below, by their uncertainties alone, px. The
+/// distance over the uncertainty of a coordinate is Rayleigh distributed, and the median of n is the middle order
+/// statistic: with u = 1 - exp(-d^2 / 2) the odds u / (1 - u) of it follow F with 2 k and 2 (n - k + 1) degrees of
+/// freedom. One image in `images` exceeds it.
+double largestMedianByChance(const std::vector<Subpattern>& ellipses) {
+  constexpr double images = 1e4;
+  std::vector<double> sigma;
+  for (const Subpattern& s : ellipses) sigma.push_back(s.sigma_px);
+  const auto n = static_cast<double>(sigma.size());
+  const auto middle = static_cast<std::ptrdiff_t>(sigma.size() / 2);
+  std::nth_element(sigma.begin(), sigma.begin() + middle, sigma.end());
+  const double k = static_cast<double>(middle) + 1.0;
+  double low = 0.0;
+  double high = 10.0;
+  for (int i = 0; i < 40; ++i) {
+    const double d = 0.5 * (low + high);
+    const double odds = std::expm1(0.5 * d * d);
+    (fisherTail(odds * (n - k + 1.0) / k, 2.0 * k, 2.0 * (n - k + 1.0)) > 1.0 / images ? low : high) = d;
+  }
+  return high * sigma[static_cast<std::size_t>(middle)];
+}
+
 }  // namespace
 
 std::string whyThePoseDoesNotHold(const std::vector<Subpattern>& ellipses, const FiducialPattern& pattern,
                                   const PatternMap& map) {
-  constexpr double tolerated_px = 0.3;  // hard images, lenses with more than k1 and damaged marks stay below 0.1
+  if (ellipses.empty()) return {};
+  constexpr double of_lens_px = 0.3;  // lenses with more than k1 and damaged marks stay below 0.1
+  const double tolerated_px = std::hypot(of_lens_px, largestMedianByChance(ellipses));
   const double off_px = medianDistance(
       ellipses, [&](const Subpattern& s) { return map.imageOf(pattern.ellipseCentre(s.row, s.column)); });
   if (off_px <= tolerated_px) return {};
