@@ -272,9 +272,16 @@ AxisSeries seriesAt(const std::vector<AxisReading>& readings, double position) {
   return series;
 }
 
-/// Standard deviation about a time history common to all series, up to the third power, with a constant of each; and
-/// these constants.
-std::pair<double, std::map<std::pair<std::string, int>, double>> scatterOf(const AxisSeries& series) {
+/// Readings of a position about a time history common to all series, up to the third power, with a constant of each.
+struct AxisScatter {
+  double sigma_um = 0.0;  ///< standard deviation
+  double degrees_of_freedom = 0.0;
+  std::map<std::pair<std::string, int>, double> constant_um;
+  std::map<std::pair<std::string, int>, Eigen::Index> column;  ///< of a constant in `unit_covariance`
+  Eigen::MatrixXd unit_covariance;                             ///< of the constants for a variance of one
+};
+
+AxisScatter scatterOf(const AxisSeries& series) {
   Eigen::Index n = 0;
   double from = std::numeric_limits<double>::infinity();
   double to = -from;
@@ -299,13 +306,19 @@ std::pair<double, std::map<std::pair<std::string, int>, double>> scatterOf(const
     }
     ++column;
   }
-  const Eigen::VectorXd solution = A.colPivHouseholderQr().solve(y);
-  const Eigen::VectorXd rest = y - A * solution;
-  const Eigen::Index p = A.cols();
-  std::map<std::pair<std::string, int>, double> constant;
-  column = powers;
-  for (const auto& [key, list] : series) constant[key] = solution[column++];
-  return {n > p ? std::sqrt(rest.squaredNorm() / static_cast<double>(n - p)) : 0.0, constant};
+  const Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> solver(A);
+  const Eigen::VectorXd solution = solver.solve(y);
+  const Eigen::MatrixXd inverse = solver.pseudoInverse();
+  AxisScatter out;
+  out.degrees_of_freedom = static_cast<double>(std::max<Eigen::Index>(0, n - A.cols()));
+  if (out.degrees_of_freedom > 0.0) out.sigma_um = std::sqrt((y - A * solution).squaredNorm() / out.degrees_of_freedom);
+  out.unit_covariance = inverse.bottomRows(constants) * inverse.bottomRows(constants).transpose();
+  Eigen::Index of = 0;
+  for (const auto& [key, list] : series) {
+    out.constant_um[key] = solution[powers + of];
+    out.column[key] = of++;
+  }
+  return out;
 }
 
 /// From the beginning to the end of the test, but for a tenth of it.
@@ -327,7 +340,10 @@ AxisPositionResult evaluatePosition(const std::vector<AxisReading>& readings, do
   if (out.readings < 4)
     throw InputError(fmt::format("position {} mm was measured {} times; allowed: at least 4 times over the test.",
                                  position, out.readings));
-  const auto [s, constant] = scatterOf(series);
+  const AxisScatter scatter = scatterOf(series);
+  const double s = scatter.sigma_um;
+  const auto& constant = scatter.constant_um;
+  Eigen::VectorXd contrast = Eigen::VectorXd::Zero(scatter.unit_covariance.rows());  // of the reversal
   std::map<std::string, std::pair<double, double>> range;
   double changes = 0.0;
   double reversals = 0.0;
@@ -343,6 +359,8 @@ AxisPositionResult evaluatePosition(const std::vector<AxisReading>& readings, do
     out.range_um = std::max(out.range_um, high - low);
     if (const auto other = constant.find({point, 1}); direction < 0 && other != constant.end()) {
       reversals += other->second - constant.at(key);
+      contrast(scatter.column.at(other->first)) += 1.0;
+      contrast(scatter.column.at(key)) -= 1.0;
       both += 1.0;
     }
     if (!spans(list, readings)) continue;
@@ -360,7 +378,13 @@ AxisPositionResult evaluatePosition(const std::vector<AxisReading>& readings, do
   stated = std::sqrt(stated / static_cast<double>(out.readings));
   out.change_sigma_um = std::max(s, stated) * std::sqrt(2.0 / spanning);
   out.repeatability_um = 2.0 * s;
+  out.repeatability_sigma_um = scatter.degrees_of_freedom > 0.0
+                                   ? out.repeatability_um / std::sqrt(2.0 * scatter.degrees_of_freedom)
+                                   : std::nan("");
   out.reversal_um = both > 0.0 ? reversals / both : std::nan("");
+  out.reversal_sigma_um = both > 0.0
+                              ? std::max(s, stated) / both * std::sqrt(contrast.dot(scatter.unit_covariance * contrast))
+                              : std::nan("");
   return out;
 }
 

@@ -100,7 +100,10 @@ struct AxisPositionResult {
   double change_sigma_um = 0.0;   ///< from the scatter, or from what is stated where that is more
   double range_um = 0.0;          ///< largest of a point, both directions
   double repeatability_um = 0.0;  ///< 2 s of the deviations from a time history (up to the third power) of all series
-  double reversal_um = 0.0;       ///< + minus - at one moment, mean over points; NaN if none has both
+  /// Standard uncertainty of it from the degrees of freedom of s (ISO/TR 230-9): 2 s / sqrt(2 nu); NaN without any.
+  double repeatability_sigma_um = 0.0;
+  double reversal_um = 0.0;        ///< + minus - at one moment, mean over points; NaN if none has both
+  double reversal_sigma_um = 0.0;  ///< standard uncertainty of it, from s or from what is stated where that is more
   std::size_t readings = 0;
 };
 struct AxisResult {

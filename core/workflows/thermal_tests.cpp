@@ -224,7 +224,9 @@ nlohmann::json Iso230Result::json() const {
                                   {"standard_uncertainty_um", p->change_sigma_um},
                                   {"range_um", p->range_um},
                                   {"repeatability_um", p->repeatability_um},
+                                  {"repeatability_standard_uncertainty_um", jsonNumber(p->repeatability_sigma_um)},
                                   {"reversal_um", jsonNumber(p->reversal_um)},
+                                  {"reversal_standard_uncertainty_um", jsonNumber(p->reversal_sigma_um)},
                                   {"readings", p->readings}});
     }
     out["expansion_um"] = axis->expansion_um;

@@ -219,6 +219,43 @@ TEST(Iso2303, MovingAxisByHand) {
   EXPECT_NEAR(r.expansion_over_time_um.back(), 8.0, 0.05);
 }
 
+// ISO 230-2 asks for repeatability and reversal, ISO/TR 230-9 for their uncertainty: over many tests the scatter of
+// what is found is what is stated.
+TEST(Iso2303, RepeatabilityAndReversalCarryTheirUncertainty) {
+  constexpr double sigma_um = 0.5;
+  constexpr int tests = 400;
+  double repeatability = 0.0, repeatability2 = 0.0, stated = 0.0, reversal_z2 = 0.0;
+  for (int seed = 0; seed < tests; ++seed) {
+    Random random(static_cast<std::uint64_t>(seed));
+    std::vector<AxisReading> readings;
+    for (int k = 0; k < 9; ++k) {
+      for (const int direction : {1, -1}) {
+        for (const double position : {50.0, 450.0}) {
+          readings.push_back({1200.0 * k + (direction > 0 ? 0.0 : 4.0), position,
+                              position / 50.0 * k / 8.0 + 0.2 * direction + random.normal(0.0, sigma_um), direction});
+        }
+      }
+    }
+    const AxisPositionResult p = evaluateMovingAxis(readings).high;
+    repeatability += p.repeatability_um / tests;
+    repeatability2 += p.repeatability_um * p.repeatability_um / tests;
+    stated += p.repeatability_sigma_um / tests;
+    reversal_z2 += std::pow((p.reversal_um - 0.4 - 9.0 * 4.0 / 9600.0) / p.reversal_sigma_um, 2) / tests;
+  }
+  EXPECT_NEAR(repeatability, 2.0 * sigma_um, 0.04);
+  const double scatter = std::sqrt(repeatability2 - repeatability * repeatability);
+  EXPECT_NEAR(stated / scatter, 1.0, 0.12);
+  EXPECT_NEAR(std::sqrt(reversal_z2), 1.0, 0.12);
+  // One direction only says nothing of the reversal, four readings nothing of the repeatability beyond one degree.
+  std::vector<AxisReading> few;
+  for (int k = 0; k < 4; ++k) {
+    for (const double position : {50.0, 450.0}) few.push_back({1200.0 * k, position, 0.1 * k * k, 1});
+  }
+  const AxisPositionResult p = evaluateMovingAxis(few).low;
+  EXPECT_TRUE(std::isnan(p.reversal_sigma_um));
+  EXPECT_TRUE(std::isfinite(p.repeatability_sigma_um));
+}
+
 // Constants of points and directions are unknown: none of them may look like an expansion.
 TEST(Iso2303, MovingAxisOfSeveralPointsAndInAnyOrderOfDirections) {
   std::vector<AxisReading> readings;
