@@ -314,11 +314,12 @@ void DiscrepancyOptions::validate() const {
   }
 }
 
-DiscrepancyResult findDiscrepancy(const DiscrepancyInput& input, const DiscrepancyOptions& options, JobContext& job) {
+DiscrepancyResult findDiscrepancy(const DiscrepancyInput& given, const DiscrepancyOptions& options, JobContext& job) {
   options.validate();
-  SPINDRIFT_ASSERT(input.predicted.size() == input.observations.rows.size(), "one prediction for every observation");
+  SPINDRIFT_ASSERT(given.predicted.size() == given.observations.rows.size(), "one prediction for every observation");
   const DiscrepancyPriors priors;
-  const JudgedAnalysis answer = judgedAnalysis(input, options, priors, job);
+  const JudgedAnalysis answer = judgedAnalysis(given, options, priors, job);
+  const DiscrepancyInput& input = *answer.input;
   ResidualProblem& problem = *answer.problem;
   const Analysis& analysis = *answer.analysis;
   const ComparableRows& rows = answer.rows;
@@ -337,7 +338,13 @@ DiscrepancyResult findDiscrepancy(const DiscrepancyInput& input, const Discrepan
                     "is told with "
                     "it: compare the clocks.",
                     std::abs(result.clock_offset_s) / 60.0, result.clock_offset_s > 0.0 ? "ahead of" : "behind"));
-  } else if (std::abs(analysis.clock_offset_s + analysis.simulation_clock_s) > 30.0) {
+  } else if (input.log_clock_s != given.log_clock_s) {
+    result.warnings.push_back(fmt::format(
+        "The clock of log and simulation is {:.0f} s {} that of the observations, as far as the data show it (± {:.0f} "
+        "s), so they are compared with both at that time.",
+        std::abs(result.clock_offset_s), result.clock_offset_s > 0.0 ? "ahead of" : "behind",
+        result.clock_offset_uncertainty_s));
+  } else if (std::abs(result.clock_offset_s - given.log_clock_s) > 30.0) {
     result.warnings.push_back(fmt::format(
         "The clock of the log is {:.0f} s {} that of the observations, as far as the data show it (± {:.0f} s).",
         std::abs(result.clock_offset_s), result.clock_offset_s > 0.0 ? "ahead of" : "behind",

@@ -17,6 +17,7 @@
 #include "core/discrepancy/effect_relations.h"
 #include "core/discrepancy/effect_titles.h"
 #include "core/discrepancy/own_effects.h"
+#include "core/discrepancy/simulation_clock.h"
 #include "core/discrepancy/simulation_parts.h"
 
 namespace spindrift {
@@ -286,7 +287,7 @@ void analyse(Analysis& a, const DiscrepancyInput& input, ResidualProblem& proble
   // Absolute values that are said to be predicted exactly: what deviates is none of the simulation's own scale.
   const bool exact = input.absolute && !(input.simulation_gain_uncertainty > 0.0);
   // Where a simulator says which of its parameters are uncertain, its parts are not doubted beyond what is stated.
-  std::vector<SimulationPart> parts;
+  std::vector<SimulationPart>& parts = a.parts;
   const auto nuisancesOf = [&](double parts_error) {
     std::vector<NuisanceColumn> nuisances = problem.simulationNuisances(
         exact ? 0.0 : std::max(input.simulation_gain_uncertainty, input.tangents ? 0.0 : parts_error));
@@ -467,6 +468,83 @@ JudgedAnalysis withClock(const DiscrepancyInput& input, const DiscrepancyOptions
   return out;
 }
 
+/// -2 ln of the probability of the data of an answer, for each reading.
+double devianceOfEach(const JudgedAnalysis& answer) {
+  return answerDeviance(*answer.problem, answer.analysis->posterior) / static_cast<double>(answer.rows.fit.size());
+}
+
+/// The clock as the simulation shows it beside what was found, s; 0 where it shows none.
+double stepOfSimulationClock(const ResidualProblem& problem, const Analysis& a) {
+  constexpr double told = 3.0;
+  constexpr double least_s = 20.0;
+  if (!a.clock_column) return 0.0;
+  const ResidualProblem::NuisancePart taken = problem.nuisancePart(problem.without(a.posterior.fit.contribution));
+  const double by_s = taken.coefficients[*a.clock_column];
+  const double sigma_s = std::sqrt(taken.variances[*a.clock_column]);
+  return std::abs(by_s) > std::max(least_s, told * sigma_s) ? by_s : 0.0;
+}
+
+/// The same with the simulation asked for a time of its clock `by_s` later.
+std::shared_ptr<const DiscrepancyInput> askedLater(const DiscrepancyInput& input, const DriverTable& drivers,
+                                                   const std::vector<SimulationPart>& parts, double by_s) {
+  auto out = std::make_shared<DiscrepancyInput>(input);
+  out->log_clock_s += by_s;
+  if (!input.base) {
+    out->predicted = predictedLater(input, drivers, parts, by_s);
+    return out;
+  }
+  out->base = std::make_shared<SimulationOfOtherClock>(input.base, by_s);
+  for (std::size_t r = 0; r < out->predicted.size(); ++r) {
+    const Observation& o = input.observations.rows[r];
+    out->predicted[r] = out->base->predict(DeviationQuery::of(o), o.component).value;
+  }
+  return out;
+}
+
+/// Asks the simulation for another time where its parts fit better there, until they say of no other: a clock that is
+/// minutes off is no straight line beside what follows within minutes.
+void followSimulationClock(JudgedAnalysis& answer, const DiscrepancyOptions& options, const DiscrepancyPriors& priors,
+                           JobContext& job) {
+  if (!answer.enough || !answer.input->log || answer.input->tangents || options.max_effects == 0) return;
+  constexpr int most_steps = 3;
+  // The parts are known to within the noise alone, and something may be missing beside them; when something was
+  // switched between two rows of the log is not known.
+  constexpr double of_the_offset = 0.15;
+  constexpr double least_s = 10.0;
+  const std::vector<double>& time_s = answer.input->log->time_s();
+  const double interval_s = (time_s.back() - time_s.front()) / std::max(1.0, static_cast<double>(time_s.size()) - 1.0);
+  const auto uncertaintyOf = [&](double moved_s) {
+    return std::hypot(least_s, interval_s / std::sqrt(12.0), of_the_offset * moved_s);
+  };
+  const double start_s = answer.log_clock_s;
+  const auto prior = [&](double clock_s) { return std::pow((clock_s - start_s) / priors.clock_s, 2); };
+  for (int k = 0; k < most_steps; ++k) {
+    const Analysis& a = *answer.analysis;
+    DriverTable drivers = *a.drivers;
+    drivers.shiftClock(-a.clock_offset_s);
+    // What is named may stand for the clock, and what is not named yet may look like one: both are tried.
+    std::vector<double> steps_s;
+    if (k == 0) steps_s.push_back(simulationClock(*answer.problem, drivers, a.catalogue, a.parts, priors.clock_s));
+    steps_s.push_back(stepOfSimulationClock(*answer.problem, a));
+    std::optional<JudgedAnalysis> better;
+    for (const double by_s : steps_s) {
+      if (by_s == 0.0 || better || !logCovers(*answer.input, answer.log_clock_s + by_s)) continue;
+      const std::shared_ptr<const DiscrepancyInput> moved = askedLater(*answer.input, drivers, a.parts, by_s);
+      DiscrepancyPriors known = priors;
+      known.clock_s = uncertaintyOf(moved->log_clock_s - start_s);
+      JudgedAnalysis again = withClock(*moved, options, known, moved->log_clock_s, job);
+      again.input = moved;
+      const double worth =
+          (devianceOfEach(answer) - devianceOfEach(again)) * static_cast<double>(answer.rows.fit.size()) +
+          prior(answer.log_clock_s) - prior(again.log_clock_s);
+      if (worth > 0.0) better = std::move(again);
+    }
+    if (!better) break;
+    answer = std::move(*better);
+  }
+  if (answer.log_clock_s != start_s) answer.log_clock_uncertainty_s = uncertaintyOf(answer.log_clock_s - start_s);
+}
+
 /// With a clock of the log far from that of the observations, where something is left, or what is named would fit
 /// better.
 std::optional<JudgedAnalysis> withFarClock(const DiscrepancyInput& input, const JudgedAnalysis& near,
@@ -474,7 +552,7 @@ std::optional<JudgedAnalysis> withFarClock(const DiscrepancyInput& input, const 
                                            JobContext& job) {
   if (!near.enough || !input.log || input.tangents || options.max_effects == 0) return std::nullopt;
   // Read from the simulation, which is computed from the log.
-  if (input.log_clock_uncertainty_s > 0.0) return std::nullopt;
+  if (near.log_clock_uncertainty_s > 0.0) return std::nullopt;
   const Analysis& analysis = *near.analysis;
   // What nothing in the log drives may stand for what the log drives at another time.
   const auto& named = near.judged.named;
@@ -531,9 +609,13 @@ JudgedAnalysis judgedAnalysis(const DiscrepancyInput& input, const DiscrepancyOp
                               const DiscrepancyPriors& priors, JobContext& job) {
   JobContext at_once = job.part(0.0, 0.5);
   JudgedAnalysis answer = withClock(input, options, priors, input.log_clock_s, at_once);
+  answer.input = std::shared_ptr<const DiscrepancyInput>(std::shared_ptr<const DiscrepancyInput>(), &input);
+  followSimulationClock(answer, options, priors, at_once);
   JobContext far_off = job.part(0.5, 1.0);
-  std::optional<JudgedAnalysis> far = withFarClock(input, answer, options, priors, far_off);
-  return far ? std::move(*far) : std::move(answer);
+  std::optional<JudgedAnalysis> far = withFarClock(*answer.input, answer, options, priors, far_off);
+  if (!far) return answer;
+  far->input = answer.input;
+  return std::move(*far);
 }
 
 }  // namespace spindrift

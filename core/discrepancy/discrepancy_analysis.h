@@ -39,12 +39,15 @@ struct Analysis {
   double simulation_clock_s = 0.0;
   double simulation_clock_uncertainty_s = 0.0;
   double simulation_error = 0.0;            ///< of its parts, as estimated
+  std::vector<SimulationPart> parts;        ///< of the simulation
   std::vector<SimulationPart> rough_parts;  ///< parts of the simulation that may be off by more than is stated
   std::vector<std::string> notes;
 };
 
 /// An analysis with what it was made of and what it came to.
 struct JudgedAnalysis {
+  /// What was looked at; its simulation is the one asked for the time of its own clock.
+  std::shared_ptr<const DiscrepancyInput> input;
   double log_clock_s = 0.0;  ///< clock of the log minus clock of the observations, before it is estimated
   double log_clock_uncertainty_s = 0.0;
   std::vector<std::string> warnings;

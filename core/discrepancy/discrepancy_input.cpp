@@ -18,9 +18,10 @@
 namespace spindrift {
 namespace {
 
-void followClock(DiscrepancyInput& input, const PredictedAt& predicted) {
+/// `between`: the simulation can be asked between the times of the observations.
+void followClock(DiscrepancyInput& input, const PredictedAt& predicted, bool between) {
   auto clock = farSimulationClock(input.observations.rows, predicted);
-  if (!clock) clock = nearSimulationClock(input.observations.rows, predicted);
+  if (!clock && between) clock = nearSimulationClock(input.observations.rows, predicted);
   if (!clock || !logCovers(input, clock->offset_s)) return;
   input.log_clock_s = clock->offset_s;
   input.log_clock_uncertainty_s = clock->standard_uncertainty_s;
@@ -32,9 +33,14 @@ void match(const SimulationTable& table, const Campaign& campaign, const std::st
   std::vector<std::string> known;
   for (const MachinePoint& point : campaign.machine.points) known.push_back(point.id);
   if (follow_clock) {
-    followClock(input, [&](const Observation& o, double time_s) {
-      return table.at(time_s, o.point, o.position_mm, o.component).value;
-    });
+    // With no more rows than there are observations it has one for each; minutes from it, the log says more.
+    const bool between = !input.log || table.byPlace() || table.size() > 2 * input.observations.rows.size();
+    followClock(
+        input,
+        [&](const Observation& o, double time_s) {
+          return table.at(time_s, o.point, o.position_mm, o.component).value;
+        },
+        between);
   }
   ObservationSet moved;
   if (input.log_clock_s != 0.0) {
@@ -111,9 +117,12 @@ DiscrepancyInput withSimulation(const Campaign& campaign, ObservationSet observa
                                          input.observations.points(), input.own.get(), input.absolute);
     input.base = model;
     if (follow_clock) {
-      followClock(input, [&](const Observation& o, double time_s) {
-        return SimulationOfOtherClock(model, time_s - o.time_s).predict(DeviationQuery::of(o), o.component).value;
-      });
+      followClock(
+          input,
+          [&](const Observation& o, double time_s) {
+            return SimulationOfOtherClock(model, time_s - o.time_s).predict(DeviationQuery::of(o), o.component).value;
+          },
+          true);
       if (input.log_clock_s != 0.0) input.base = std::make_shared<SimulationOfOtherClock>(model, input.log_clock_s);
     }
     input.predicted.reserve(input.observations.rows.size());

@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/discrepancy/discrepancy_numbers.h"
+#include "core/discrepancy/simulation_clock.h"
+
 namespace spindrift {
 
 std::vector<SimulationPart> partsOfSimulation(const ResidualProblem& problem, const DriverTable& drivers,
@@ -18,8 +21,9 @@ std::vector<SimulationPart> partsOfSimulation(const ResidualProblem& problem, co
   const DiscrepancyOptions nothing_by_hand;
   const JointFit fit = PosteriorSearch(search, simulation, library, nothing_by_hand, priors, 0.0).run(job).fit;
   std::vector<SimulationPart> out;
+  std::vector<ModelEffect> models = modelEffects(search, simulation, fit, "simulation", 1.0);
   for (std::size_t t = 0; t < fit.terms.size(); ++t)
-    out.push_back({fit.terms[t].effect->id, fit.terms[t], fit.contribution[t], {}});
+    out.push_back({fit.terms[t].effect->id, fit.terms[t], fit.gains[t], fit.contribution[t], {}, std::move(models[t])});
   if (drivers.empty()) return out;
   // Of the order of an offset, so that parts that follow their drivers within minutes are moved as they would be.
   constexpr double apart_s = 120.0;
@@ -46,6 +50,71 @@ Eigen::VectorXd clockRate(const ResidualProblem& problem, const std::vector<Simu
     rate += part.rate;
   }
   return rate + problem.ratePerSecond(rest);
+}
+
+double simulationClock(const ResidualProblem& problem, const DriverTable& drivers, const std::vector<Effect>& catalogue,
+                       const std::vector<SimulationPart>& parts, double prior_s) {
+  Eigen::VectorXd rest = problem.simulated;
+  bool logged = false;
+  for (const SimulationPart& part : parts) {
+    rest -= part.values;
+    logged = logged || part.rate.size() > 0;
+  }
+  if (!logged) return 0.0;
+  const Eigen::VectorXd rest_rate = problem.ratePerSecond(rest);
+  const auto leftAt = [&](double offset_s) {
+    DriverTable shifted = drivers;
+    shifted.shiftClock(offset_s);
+    const EffectSearch moved(problem, shifted, catalogue);
+    Eigen::VectorXd left = problem.y - offset_s * rest_rate;
+    for (const SimulationPart& part : parts) {
+      if (part.rate.size() == 0) continue;
+      moved.prepare(*part.term.effect);
+      const Eigen::MatrixXd columns = moved.columns(part.term);
+      left -= columns * part.gains - part.values;
+    }
+    return problem.projected(left).squaredNorm();
+  };
+  constexpr double step_s = 60.0;
+  constexpr int most_steps = 10;
+  constexpr double worth_it = 8.0;  // in 2 ln of the likelihood
+  const double now = leftAt(0.0);
+  double least = now - worth_it;
+  double best_s = 0.0;
+  for (int k = -most_steps; k <= most_steps; ++k) {
+    if (k == 0) continue;
+    const double offset_s = k * step_s;
+    const double left = leftAt(offset_s) + std::pow(offset_s / prior_s, 2);
+    if (left < least) {
+      least = left;
+      best_s = offset_s;
+    }
+  }
+  return best_s;
+}
+
+std::vector<double> predictedLater(const DiscrepancyInput& input, const DriverTable& drivers,
+                                   const std::vector<SimulationPart>& parts, double later_s) {
+  const std::vector<Observation>& rows = input.observations.rows;
+  DriverTable shifted = drivers;
+  shifted.shiftClock(later_s);
+  std::vector<double> rest = input.predicted;
+  std::vector<double> moved(rows.size(), 0.0);
+  for (const SimulationPart& part : parts) {
+    if (part.rate.size() == 0) continue;
+    const std::vector<double> now = EffectModel::contribution(drivers, part.model, rows);
+    const std::vector<double> then = EffectModel::contribution(shifted, part.model, rows);
+    for (std::size_t r = 0; r < rows.size(); ++r) {
+      rest[r] -= now[r];
+      moved[r] += then[r];
+    }
+  }
+  const PredictedAt between = predictedBetween(rows, rest);
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    const double later = between(rows[r], rows[r].time_s + later_s);
+    moved[r] += std::isfinite(rest[r]) && std::isfinite(later) ? later : rest[r];
+  }
+  return moved;
 }
 
 std::vector<PartError> partErrors(const ResidualProblem& problem, const std::vector<SimulationPart>& parts,

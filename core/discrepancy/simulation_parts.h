@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "core/base/job_context.h"
+#include "core/discrepancy/discrepancy.h"
+#include "core/discrepancy/effect_model.h"
 #include "core/discrepancy/effect_posterior.h"
 #include "core/discrepancy/residual_problem.h"
 
@@ -17,8 +19,10 @@ namespace spindrift {
 struct SimulationPart {
   std::string id;
   ModelTerm term;          ///< as the simulation has it
+  Eigen::VectorXd gains;   ///< of its columns
   Eigen::VectorXd values;  ///< what it contributes to the simulation over the units, um or urad
   Eigen::VectorXd rate;    ///< what it gains per second that the clock of the log is ahead; empty: nothing logged
+  ModelEffect model;       ///< the same for any observation
 };
 
 /// Found as missing effects are, in the simulation in place of the residual, to within the noise of the observations.
@@ -30,6 +34,18 @@ struct SimulationPart {
 /// or urad per s: the simulation was computed from the log and asked at times of the observations. Its parts move as
 /// their drivers say, between the states as well; the rest as it goes from state to state.
 [[nodiscard]] Eigen::VectorXd clockRate(const ResidualProblem& problem, const std::vector<SimulationPart>& parts);
+
+/// Clock of the log minus clock of the observations at which least is left of the residual, to within minutes: its
+/// parts are moved as their drivers say. 0 where it is not clearly less. `prior_s`: standard deviation of such an
+/// offset.
+[[nodiscard]] double simulationClock(const ResidualProblem& problem, const DriverTable& drivers,
+                                     const std::vector<Effect>& catalogue, const std::vector<SimulationPart>& parts,
+                                     double prior_s);
+
+/// `predicted` of `input` as the simulation has it for a time of the log `later_s` later: its parts as their drivers
+/// say, the rest linear in time between the observations of its series and as it is beyond them.
+[[nodiscard]] std::vector<double> predictedLater(const DiscrepancyInput& input, const DriverTable& drivers,
+                                                 const std::vector<SimulationPart>& parts, double later_s);
 
 /// By how much a part of the simulation is too large, relative to what it ought to be.
 struct PartError {

@@ -11852,6 +11852,10 @@ endgültig fehlgeschlagen: {}</translation>
         <source>half of the {} points lie beyond {:.6g} mm although the axes travel {:g} mm: their positions look like micrometres; allowed: millimetres.</source>
         <translation>die Hälfte der {} Punkte liegt jenseits von {:.6g} mm, obwohl die Achsen {:g} mm verfahren: ihre Positionen sehen nach Mikrometern aus; zulässig: Millimeter.</translation>
     </message>
+    <message>
+        <source>The clock of log and simulation is {:.0f} s {} that of the observations, as far as the data show it (± {:.0f} s), so they are compared with both at that time.</source>
+        <translation>Die Uhr von Protokoll und Simulation liegt {:.0f} s {} der Uhr der Beobachtungen, soweit die Daten es zeigen (± {:.0f} s); verglichen wird daher mit beiden zu dieser Zeit.</translation>
+    </message>
 </context>
 <context>
     <name>files</name>

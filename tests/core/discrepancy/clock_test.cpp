@@ -155,6 +155,58 @@ TEST(SimulationClock, MinutesAreToldWithTheirUncertainty) {
   EXPECT_GE(told, 3);
 }
 
+/// The coolant of a log switched by a programme that does not repeat.
+std::vector<double> switchedCoolant(std::size_t size, std::uint64_t seed) {
+  std::vector<double> coolant;
+  Random random(seed);
+  for (double on = 0.0; coolant.size() < size; on = 1.0 - on)
+    coolant.insert(coolant.end(), static_cast<std::size_t>(random.uniform(20.0, 110.0)), on);
+  coolant.resize(size);
+  return coolant;
+}
+
+/// What a signal of a log comes to through a lag, at the time of its clock.
+double lagged(const std::vector<double>& signal, double step_s, double time_constant_s, double time_s) {
+  double q = 0.0;
+  for (std::size_t i = 0; i < signal.size() && step_s * static_cast<double>(i) < time_s; ++i)
+    q += step_s * (signal[i] - q) / time_constant_s;
+  return q;
+}
+
+/// What the simulation has follows the coolant within minutes, and the clock is minutes off: a straight line in the
+/// offset explains part of it, and states lie too far apart for one between them. What is missing goes with the log.
+TEST(SimulationClock, MinutesBesideWhatFollowsWithinMinutes) {
+  int right = 0;
+  int told = 0;
+  int followed = 0;
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    for (const double log_ahead_s : {330.0, -330.0}) {
+      DiscrepancyInput input = campaign(Hidden::Nothing, seed);
+      const std::vector<double> coolant = switchedCoolant(input.log->time_s().size(), 40 + seed);
+      input.log->setSignal("coolant", coolant);
+      const double step_s = input.log->time_s()[1] - input.log->time_s()[0];
+      for (std::size_t i = 0; i < input.predicted.size(); ++i) {
+        Observation& o = input.observations.rows[i];
+        if (o.component == Component::EX) {
+          input.predicted[i] += 30.0 * lagged(coolant, step_s, 200.0, o.time_s);
+          o.value += 30.0 * lagged(coolant, step_s, 200.0, o.time_s + log_ahead_s);
+        } else if (o.component == Component::EY) {
+          o.value += 5.0 * lagged(coolant, step_s, 900.0, o.time_s + log_ahead_s);
+        }
+      }
+      const DiscrepancyResult result = run(input);
+      right += result.effects.size() == 1 && result.effects[0].id == "coolant.shock.y" ? 1 : 0;
+      told += std::abs(result.clock_offset_s - log_ahead_s) < 2.0 * result.clock_offset_uncertainty_s ? 1 : 0;
+      EXPECT_LT(result.clock_offset_uncertainty_s, 100.0);
+      followed += says(result, "clock of log and simulation") ? 1 : 0;
+    }
+  }
+  std::printf("right %d of 8, clock told %d of 8\n", right, told);
+  EXPECT_GE(followed, 7);
+  EXPECT_GE(right, 7);
+  EXPECT_GE(told, 7);
+}
+
 /// A model that says what time it is, s.
 class TimeTeller final : public ErrorModel {
  public:
@@ -209,23 +261,13 @@ TEST(SimulationClock, OfTheFilesOfACampaign) {
 TEST(LogClock, OfACoolantThatActsWithinMinutes) {
   // By a programme that does not repeat; the readings are stamped two hours late.
   DiscrepancyInput input = campaign(Hidden::Nothing, 9);
-  std::vector<double> coolant;
-  Random random(3);
-  bool on = false;
   const std::vector<double>& time_s = input.log->time_s();
-  while (coolant.size() < time_s.size()) {
-    coolant.insert(coolant.end(), static_cast<std::size_t>(random.uniform(20.0, 110.0)), on ? 1.0 : 0.0);
-    on = !on;
-  }
-  coolant.resize(time_s.size());
+  const std::vector<double> coolant = switchedCoolant(time_s.size(), 3);
   input.log->setSignal("coolant", coolant);
   const double step_s = time_s[1] - time_s[0];
   for (Observation& o : input.observations.rows) {
     if (o.component != Component::EX) continue;
-    double q = 0.0;
-    for (std::size_t i = 0; step_s * static_cast<double>(i) < o.time_s - 7200.0; ++i)
-      q += step_s * (coolant[i] - q) / 500.0;
-    o.value += 6.0 * q;
+    o.value += 6.0 * lagged(coolant, step_s, 500.0, o.time_s - 7200.0);
   }
   const DiscrepancyResult result = run(input);
   ASSERT_EQ(result.effects.size(), 1u);

@@ -54,6 +54,7 @@ std::span<const char* const> spindrift::gui::core_formats::discrepancy() noexcep
     QT_TRANSLATE_NOOP("core", "The artefact warms with the table or the room and grows away from its reference feature."),
     QT_TRANSLATE_NOOP("core", "The ball screw is warmer where the nut travels, so its growth rises faster than in proportion to the distance from the fixed bearing."),
     QT_TRANSLATE_NOOP("core", "The beam warms unevenly over its height and sags between its ends; the head that travels on it follows the parabola and turns with its slope."),
+    QT_TRANSLATE_NOOP("core", "The clock of log and simulation is {:.0f} s {} that of the observations, as far as the data show it (± {:.0f} s), so they are compared with both at that time."),
     QT_TRANSLATE_NOOP("core", "The clock of the log is {:.0f} s {} that of the observations, as far as the data show it (± {:.0f} s)."),
     QT_TRANSLATE_NOOP("core", "The column warms as a whole and grows from its base: the head rises, more so the higher it stands on the column."),
     QT_TRANSLATE_NOOP("core", "The drive of the rotary table heats its bearing and shifts the table."),
