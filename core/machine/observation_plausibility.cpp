@@ -249,7 +249,7 @@ void refusePositionsInAnotherUnit(const ObservationSet& observations, const Mach
     reach_mm = std::max(reach_mm, o.position_mm.cwiseAbs().maxCoeff());
   }
   const SourcePlace file{observations.file.empty() ? machine.file : observations.file, ""};
-  constexpr double beyond_any = 10.0;
+  constexpr double beyond_any = 50.0;
   std::vector<double> reaches;
   for (const auto& place : places) reaches.push_back(place.second.cwiseAbs().maxCoeff());
   if (travel_mm > 0.0 && !reaches.empty() && median(reaches) > beyond_any * travel_mm) {

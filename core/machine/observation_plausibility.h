@@ -36,7 +36,7 @@ void rejectReading(const ImplausibleReading& reading, InstrumentEvaluation& eval
 [[nodiscard]] ObservationSet withoutRows(const ObservationSet& observations, const std::vector<std::size_t>& rows);
 
 /// Throws InputError if the positions of the points are metres (all of them, of at least two points, lie within a
-/// thousandth of the travel of the machine) or micrometres (most lie beyond ten times its longest travel).
+/// thousandth of the travel of the machine) or micrometres (half lie beyond fifty times its longest travel).
 void refusePositionsInAnotherUnit(const ObservationSet& observations, const MachineDescription& machine);
 
 /// One sentence if points lie outside the travel of the machine by more than a tenth of it: a file of another machine,

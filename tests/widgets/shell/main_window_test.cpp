@@ -327,6 +327,7 @@ TEST_F(MainWindowTest, ButtonsAreLargeAndNamed) {
   openEightPoints();
   for (const StepId step : all_steps) {
     window_->workflow().goTo(step);
+    ASSERT_TRUE(waitForJobs(*window_, 60));
     QTest::qWait(10);
     for (const QPushButton* button : window_->findChildren<QPushButton*>()) {
       if (!button->isVisible()) continue;
@@ -369,7 +370,8 @@ TEST_F(MainWindowTest, JogsAreHeldAgainstTheResolution) {
   window_->workflow().goTo(StepId::WarmUp);
   auto* page = qobject_cast<WarmUpPage*>(window_->currentPage());
   ASSERT_NE(page, nullptr);
-  ASSERT_TRUE(page->jogs()->button()->isEnabled());
+  // How many states there are is counted beside the window.
+  ASSERT_TRUE(QTest::qWaitFor([&] { return page->jogs()->button()->isEnabled(); }, 5000));
   QTest::mouseClick(page->jogs()->button(), Qt::LeftButton);  // two thermal states tens of um apart are no jogs
   ASSERT_TRUE(waitForJobs(*window_, 60));
   EXPECT_EQ(page->jogs()->rows()->rowCount(), 3);

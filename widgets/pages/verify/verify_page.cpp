@@ -372,8 +372,8 @@ void VerifyPage::showPoints() {
     return;
   }
   const double c_deg = shownAngle(*component);
-  const QString title = tr("%1 at the points").arg(component_->currentText());
-  points_title_->setText(angle_->several() ? withTableAngle(title, c_deg) : title);
+  const QString heading = tr("%1 at the points").arg(component_->currentText());
+  points_title_->setText(angle_->several() ? withTableAngle(heading, c_deg) : heading);
   display(tr("Reading the points"),
           [this, result = result_, component = *component, c_deg](JobContext&) -> std::function<void()> {
             return [this, result, component, c_deg, figures = verifyFiguresOfPoints(*result, component, c_deg)] {
