@@ -505,7 +505,8 @@ std::shared_ptr<const DiscrepancyInput> askedLater(const DiscrepancyInput& input
 /// minutes off is no straight line beside what follows within minutes.
 void followSimulationClock(JudgedAnalysis& answer, const DiscrepancyOptions& options, const DiscrepancyPriors& priors,
                            JobContext& job) {
-  if (!answer.enough || !answer.input->log || answer.input->tangents || options.max_effects == 0) return;
+  if (!answer.enough || !answer.input->log || answer.input->log->empty()) return;
+  if (answer.input->tangents || options.max_effects == 0) return;
   constexpr int most_steps = 3;
   // The parts are known to within the noise alone, and something may be missing beside them; when something was
   // switched between two rows of the log is not known.
