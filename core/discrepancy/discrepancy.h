@@ -66,8 +66,8 @@ struct DiscrepancyInput {
   std::string base_table;                             ///< name of simulation.csv for model.json; may be empty
   std::vector<std::string> notes;                     ///< sentences about the simulation that belong to the result
   std::string why_unmatched;  ///< why predictions are missing, "12 lie after its last row"; may be empty
-  /// Clock of log and simulation minus clock of the observations where these are far apart, s: `predicted` is of the
-  /// time `time_s` + `log_clock_s` for every observation, and so is what the log says (simulation_clock.h).
+  /// Clock of log and simulation minus clock of the observations as far as it is known beforehand, s: `predicted` is of
+  /// the time `time_s` + `log_clock_s` for every observation, and so is what the log says (simulation_clock.h).
   double log_clock_s = 0.0;
   double log_clock_uncertainty_s = 0.0;
 };

@@ -27,8 +27,8 @@ struct ThresholdGrid {
 };
 
 /// Means of 2 x 2 pixels of two rows, rounded; with `Levels` also the darkest and brightest of each column so far. The
-/// reduced image is made row by row, twice, and never kept: to make it again takes 0.1 ms, to get the pages of the
-/// memory for it from the system 2 ms, once in each process and thread.
+/// reduced image is made row by row, twice, and never kept: the pages of the memory for it cost the first frame of a
+/// process more than to make it again (decoder_study --speed).
 template <bool Levels>
 void halveRows(const std::uint8_t* upper, const std::uint8_t* lower, int width, std::uint8_t* out,
                [[maybe_unused]] std::uint8_t* low = nullptr, [[maybe_unused]] std::uint8_t* high = nullptr) {
