@@ -5,6 +5,7 @@
 #include <QLabel>
 #include <QProgressBar>
 #include <QPushButton>
+#include <utility>
 
 #include "widgets/common/parts.h"
 #include "widgets/theme/icons.h"
@@ -18,8 +19,9 @@ JobBar::JobBar(JobRunner& runner, QWidget* parent) : QFrame(parent), runner_(run
   auto* line = new QHBoxLayout(this);
   line->setContentsMargins(16, 6, 8, 6);
   line->setSpacing(10);
-  icon_ = new IconLabel(QStringLiteral("check-circle"), Tone::Neutral);
-  text_ = new OneLine(tr("Ready"));
+  said_ = {QStringLiteral("check-circle"), Tone::Neutral, tr("Ready")};
+  icon_ = new IconLabel(said_.icon, said_.tone);
+  text_ = new OneLine(said_.text);
   progress_ = new QProgressBar;
   progress_->setRange(0, 1000);
   progress_->setTextVisible(false);
@@ -68,7 +70,7 @@ JobBar::JobBar(JobRunner& runner, QWidget* parent) : QFrame(parent), runner_(run
     }
   });
   connect(&runner, &JobRunner::finished, this,
-          [this](const QString& title, JobOutcome outcome, const QString& sentence) {
+          [this](const QString& title, JobOutcome outcome, const QString& sentence, JobQueue queue) {
             QString icon = QStringLiteral("check-circle");
             Tone tone = Tone::Good;
             QString text = tr("%1: done").arg(title);
@@ -81,9 +83,10 @@ JobBar::JobBar(JobRunner& runner, QWidget* parent) : QFrame(parent), runner_(run
               tone = Tone::Neutral;
               text = tr("%1: cancelled, nothing was changed").arg(title);
             }
-            // Beside another job that is shown it is for the messages only.
-            if (!runner_.title().isEmpty()) return log_.add(tone, text);
-            showText(icon, tone, text);
+            // What was read to be shown stands on the page; what was said before stays said.
+            if (queue != JobQueue::Display || outcome != JobOutcome::Done) say({icon, tone, text});
+            if (!runner_.title().isEmpty()) return;
+            showSaid();
             // The next one, if it is to be seen, shows them again.
             progress_->hide();
             cancel_->hide();
@@ -94,18 +97,23 @@ void JobBar::setHint(const QString& text) {
   hint_->setText(text);
 }
 
-void JobBar::showText(const QString& icon, Tone tone, const QString& text) {
-  icon_->set(icon, tone);
-  text_->setText(onScreen(text));
-  log_.add(tone, text);
+void JobBar::say(Said said) {
+  said_ = std::move(said);
+  log_.add(said_.tone, said_.text);
+}
+
+void JobBar::showSaid() {
+  icon_->set(said_.icon, said_.tone);
+  text_->setText(onScreen(said_.text));
 }
 
 void JobBar::setMessage(const QString& text) {
-  showText(QStringLiteral("info"), Tone::Neutral, text);
+  setMessage(Tone::Neutral, text);
 }
 
 void JobBar::setMessage(Tone tone, const QString& text) {
-  showText(QString::fromLatin1(toneIcon(tone)), tone, text);
+  say({QString::fromLatin1(toneIcon(tone)), tone, text});
+  showSaid();
 }
 
 void JobBar::setConnections(Tone tone, const QString& text, const QString& tip) {

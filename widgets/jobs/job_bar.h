@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The bar at the bottom of the window: what runs, how far it is, cancel; and the last thing that happened. All of it
-// can be read again in the list of jobs and messages (activity_dialog.h).
+// The bar at the bottom of the window: what runs, how far it is, cancel; and the last thing that was said. What is only
+// read to be shown says something where it failed. All of it can be read again in the list of jobs and messages
+// (activity_dialog.h).
 #pragma once
 
 #include <QFrame>
@@ -41,10 +42,18 @@ class JobBar : public QFrame {
   void connectionsWanted();
 
  private:
-  void showText(const QString& icon, Tone tone, const QString& text);
+  struct Said {
+    QString icon;
+    Tone tone = Tone::Neutral;
+    QString text;
+  };
+  /// It is the last thing said; a job that is shown stays shown.
+  void say(Said said);
+  void showSaid();
 
   JobRunner& runner_;
   MessageLog log_;
+  Said said_;
   IconLabel* icon_;
   QLabel* text_;
   QProgressBar* progress_;

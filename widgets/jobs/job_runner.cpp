@@ -71,7 +71,7 @@ void JobRunner::stop(Lane& own) {
   const Running& gone = *abandoned_.emplace_back(std::move(own.current));
   if (shown() == nullptr) poll_.stop();
   if (gone.job.cancelled) gone.job.cancelled();
-  if (!gone.job.quiet) Q_EMIT finished(gone.job.title, JobOutcome::Cancelled, {});
+  if (!gone.job.quiet) Q_EMIT finished(gone.job.title, JobOutcome::Cancelled, {}, gone.job.queue);
   if (const Running* other = shown()) Q_EMIT started(other->job.title);
 }
 
@@ -212,7 +212,7 @@ void JobRunner::complete(JobQueue queue, int id) {
       break;
   }
   const bool told = was_shown || queue == JobQueue::Batch || done->outcome == JobOutcome::Failed;
-  if (told && !done->job.quiet) Q_EMIT finished(done->job.title, done->outcome, done->sentence);
+  if (told && !done->job.quiet) Q_EMIT finished(done->job.title, done->outcome, done->sentence, queue);
   if (own.current == nullptr) startNext(queue);
   // Another queue may have something to show again.
   if (const Running* other = shown(); was_shown && other != nullptr && &own != &lane(other->job.queue))
@@ -249,7 +249,7 @@ void JobRunner::empty(JobQueue queue) {
   // Whoever waits for one of them is told, and may look at what waits.
   for (Waiting& waiting : std::exchange(own.queue, {})) {
     if (waiting.job.cancelled) waiting.job.cancelled();
-    if (!waiting.job.quiet) Q_EMIT finished(waiting.job.title, JobOutcome::Cancelled, {});
+    if (!waiting.job.quiet) Q_EMIT finished(waiting.job.title, JobOutcome::Cancelled, {}, queue);
   }
   if (own.current != nullptr) stop(own);
 }

@@ -92,7 +92,8 @@ class JobRunner : public QObject {
   void started(const QString& title);
   void progressed(double fraction, const QString& stage);
   /// A job that was shown has ended, or a batch, or one that failed while another was shown.
-  void finished(const QString& title, spindrift::gui::JobOutcome outcome, const QString& sentence);
+  void finished(const QString& title, spindrift::gui::JobOutcome outcome, const QString& sentence,
+                spindrift::gui::JobQueue queue);
   /// `entries` is another: something runs, waits, got on or ended.
   void changed();
 

@@ -116,6 +116,55 @@ TEST(JobRunner, WhatWaitsIsToldWhenItWillNotBeBegun) {
   EXPECT_EQ(finished[0][1].value<JobOutcome>(), JobOutcome::Cancelled);
 }
 
+// A fit fails while a page reads what it shows: the sentence stays, however quickly or slowly the page is.
+TEST(JobRunner, WhatIsReadToBeShownDoesNotHideWhatFailed) {
+  for (const bool display_ends_last : {true, false}) {
+    JobRunner runner;
+    JobBar bar(runner);
+    bar.setMessage(QStringLiteral("opened"));
+    std::promise<void> display_may_end, work_may_end;
+    Job display;
+    display.title = QStringLiteral("reading the points");
+    display.queue = JobQueue::Display;
+    display.work = [&](JobContext&) -> std::function<void()> {
+      display_may_end.get_future().wait();
+      return [] {};
+    };
+    Job work;
+    work.title = QStringLiteral("fitting");
+    work.work = [&](JobContext&) -> std::function<void()> {
+      work_may_end.get_future().wait();
+      throw InputError({"a.csv"}, "is not there.");
+    };
+    runner.run(std::move(display));
+    EXPECT_EQ(bar.message(), QStringLiteral("reading the points"));
+    runner.run(std::move(work));
+    (display_ends_last ? work_may_end : display_may_end).set_value();
+    const JobQueue first = display_ends_last ? JobQueue::Work : JobQueue::Display;
+    EXPECT_TRUE(QTest::qWaitFor([&] { return runner.firstOf(first).isEmpty(); }, 10000));
+    (display_ends_last ? display_may_end : work_may_end).set_value();
+    EXPECT_TRUE(QTest::qWaitFor([&] { return !runner.busy(); }, 10000));
+    EXPECT_TRUE(bar.message().contains(QStringLiteral("is not there"))) << bar.message().toStdString();
+    for (const Message& message : bar.log().messages())
+      EXPECT_FALSE(message.text.contains(QStringLiteral("done"))) << message.text.toStdString();
+  }
+}
+
+// Read to be shown, and done: what was said before is said again.
+TEST(JobRunner, WhatIsReadToBeShownSaysNothingWhenItIsDone) {
+  JobRunner runner;
+  JobBar bar(runner);
+  bar.setMessage(QStringLiteral("opened"));
+  std::atomic<int> applied{0};
+  Job display = counting(applied);
+  display.queue = JobQueue::Display;
+  runner.run(std::move(display));
+  EXPECT_EQ(bar.message(), QStringLiteral("counting"));
+  EXPECT_TRUE(QTest::qWaitFor([&] { return !runner.busy(); }, 10000));
+  EXPECT_EQ(applied, 1);
+  EXPECT_EQ(bar.message(), QStringLiteral("opened"));
+}
+
 TEST(JobRunner, ClosingWhileAJobRunsIsSafe) {
   std::atomic<bool> started{false};
   bool applied = false;
