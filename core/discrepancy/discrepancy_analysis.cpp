@@ -127,22 +127,28 @@ void settle(Analysis& a, const DiscrepancyInput& input, ResidualProblem& problem
   a.hypotheses.chooseWindows(a.catalogue, problem, [&](const std::string&) {
     return CandidateLibrary::Given{Eigen::MatrixXd(problem.projectedResidual().size(), 0), problem.projectedResidual()};
   });
+  std::vector<std::vector<ModelTerm>> known;
   constexpr int most_rounds = 3;
   for (int round = 0; round < most_rounds; ++round) {
     job.report(0.1 + 0.25 * round, "weighing effects");
     a.search = std::make_unique<EffectSearch>(problem, *a.drivers, a.catalogue);
     const CandidateLibrary library(*a.search, problem, job);
     PosteriorSearch posterior(*a.search, problem, library, options, priors, a.simulation_error);
-    a.posterior = posterior.run(job, off);
+    a.posterior = posterior.run(job, off, known);
     a.remainder = remainderOf(problem, posterior.given(a.posterior.fit));
     const auto finish = [&] { posterior.weighAgainstUnknown(a.posterior, a.remainder); };
     if (round + 1 == most_rounds) {
       finish();
       break;
     }
+    // Beside a wrong set the noise takes what the right one would explain, and keeps it.
+    const JointFit& likeliest = posterior.likeliestBesideItsOwnNoise(a.posterior);
+    const bool other_set = &likeliest != &a.posterior.fit;
+    known.push_back(a.posterior.fit.terms);
+    if (other_set) known.push_back(likeliest.terms);
     const double clock_before = a.clock_offset_s;
     if (const auto clock =
-            estimateClockOffset(problem, a.catalogue, *a.drivers, a.posterior.fit, clock_before, priors.clock_s)) {
+            estimateClockOffset(problem, a.catalogue, *a.drivers, likeliest, clock_before, priors.clock_s)) {
       a.clock_offset_s = clock->offset_s;
       a.clock_uncertainty_s = clock->standard_uncertainty_s;
       a.drivers->shiftClock(clock->offset_s - clock_before);
@@ -155,7 +161,7 @@ void settle(Analysis& a, const DiscrepancyInput& input, ResidualProblem& problem
       }
       return posterior.given(a.search->solve(others));
     });
-    Eigen::VectorXd left = problem.without(a.posterior.fit.contribution);
+    Eigen::VectorXd left = problem.without(likeliest.contribution);
     const ResidualProblem::NuisancePart taken = problem.nuisancePart(left);
     left -= taken.values;
     const double error_before = a.simulation_error;
@@ -163,7 +169,7 @@ void settle(Analysis& a, const DiscrepancyInput& input, ResidualProblem& problem
     const bool other_error = std::abs(a.simulation_error - error_before) > 0.01;
     const NoiseModel again = estimateNoise(problem, left, true);
     const bool other_clock = std::abs(a.clock_offset_s - clock_before) > 20.0;
-    if (!differs(problem.noise, again) && !other_clock && !other_error && !other_window) {
+    if (!differs(problem.noise, again) && !other_clock && !other_error && !other_window && !other_set) {
       finish();
       break;
     }
@@ -260,7 +266,8 @@ void weigh(Analysis& a, const DiscrepancyInput& input, ResidualProblem& problem,
     NoiseModel shifted = noise;
     shifted.weight = problem.noise.weight;
     before.setNoise(shifted);
-    if (answerDeviance(problem, a.posterior) + priors.instead_of_common_noise < answerDeviance(before, posterior))
+    if (answerDeviance(problem, a.posterior.fit, a.posterior.price) + priors.instead_of_common_noise <
+        answerDeviance(before, posterior.fit, posterior.price))
       return;
   }
   a.drivers->shiftClock(clock_offset_s - a.clock_offset_s);
@@ -470,7 +477,8 @@ JudgedAnalysis withClock(const DiscrepancyInput& input, const DiscrepancyOptions
 
 /// -2 ln of the probability of the data of an answer, for each reading.
 double devianceOfEach(const JudgedAnalysis& answer) {
-  return answerDeviance(*answer.problem, answer.analysis->posterior) / static_cast<double>(answer.rows.fit.size());
+  const EffectPosterior& posterior = answer.analysis->posterior;
+  return answerDeviance(*answer.problem, posterior.fit, posterior.price) / static_cast<double>(answer.rows.fit.size());
 }
 
 /// The clock as the simulation shows it beside what was found, s; 0 where it shows none.

@@ -30,6 +30,9 @@ constexpr double refining_gains = 15.0;
 constexpr double sweep_window = 40.0;
 /// In evidence, behind the best set: less probable sets are not listed.
 constexpr double occam_window = 30.0;
+/// Sets that are weighed beside noise of their own as well: how far behind the best, and how many.
+constexpr double close_window = 30.0;
+constexpr std::size_t most_close = 8;
 /// A set in which signs or bounds are broken is out.
 constexpr double inadmissible_price = 1e6;
 /// Errors of a driver that add less than this to chi-squared are not worth their columns, nor more columns than these.
@@ -189,12 +192,12 @@ double smoothBesideNoise(const ResidualProblem& problem, const JointFit& fit, co
   return smoothIn(profiles, differing(problem, by_named, by_all)) + std::max(0.0, of_named.price - of_all.price);
 }
 
-double answerDeviance(const ResidualProblem& problem, const EffectPosterior& posterior) {
-  Eigen::VectorXd left = problem.without(posterior.fit.contribution);
+double answerDeviance(const ResidualProblem& problem, const JointFit& fit, double price) {
+  Eigen::VectorXd left = problem.without(fit.contribution);
   const ResidualProblem::NuisancePart taken = problem.nuisancePart(left);
   left -= taken.values;
   const NoiseProfiles profiles = noiseProfiles(problem, left, {true, true, true, true, true, true});
-  return jointDeviance(profiles, &NoiseProfile::with_unknown) + taken.price + posterior.price;
+  return jointDeviance(profiles, &NoiseProfile::with_unknown) + taken.price + price;
 }
 
 bool holdsEffect(const Effect& container, const std::string& simple) {
@@ -661,6 +664,25 @@ SlotEvidence PosteriorSearch::slotOf(const State& best, std::size_t t, const Job
   return out;
 }
 
+double PosteriorSearch::wholePriceOf(const JointFit& fit) const {
+  double gains = fit.parameter_count;
+  for (const ModelTerm& term : fit.terms) gains -= static_cast<double>(term.parameters.size());
+  return gains * search_->logN() + priceOf(fit);
+}
+
+const JointFit& PosteriorSearch::likeliestBesideItsOwnNoise(const EffectPosterior& posterior) const {
+  const JointFit* likeliest = &posterior.fit;
+  if (posterior.close.empty()) return *likeliest;
+  double least = answerDeviance(*problem_, posterior.fit, wholePriceOf(posterior.fit)) - priors_.beside_own_noise;
+  for (const JointFit& fit : posterior.close) {
+    const double deviance = answerDeviance(*problem_, fit, wholePriceOf(fit));
+    if (!(deviance < least)) continue;
+    least = deviance;
+    likeliest = &fit;
+  }
+  return *likeliest;
+}
+
 void PosteriorSearch::weighAgainstUnknown(EffectPosterior& posterior, Remainder& remainder) const {
   const JointFit& fit = posterior.fit;
   Eigen::VectorXd left = problem_->without(fit.contribution);
@@ -680,12 +702,7 @@ void PosteriorSearch::weighAgainstUnknown(EffectPosterior& posterior, Remainder&
     r.evidence = std::min(r.evidence, smoothIn(with, one) + std::max(0.0, spared));
   }
   if (fit.terms.empty()) return;
-  const auto wholePrice = [&](const JointFit& of) {
-    double gains = of.parameter_count;
-    for (const ModelTerm& term : of.terms) gains -= static_cast<double>(term.parameters.size());
-    return gains * search_->logN() + priceOf(of);
-  };
-  posterior.price = wholePrice(fit);
+  posterior.price = wholePriceOf(fit);
   struct Weight {
     double over_unknown = 0.0;
     double over_noise = 0.0;
@@ -703,7 +720,7 @@ void PosteriorSearch::weighAgainstUnknown(EffectPosterior& posterior, Remainder&
     NoiseProfiles profiles = noiseProfiles(*problem_, more, changed);
     for (std::size_t c = 0; c < changed.size(); ++c)
       if (!changed[c]) profiles[c] = with[c];
-    const double price = posterior.price - wholePrice(without) - (taken_more.price - taken.price);
+    const double price = posterior.price - wholePriceOf(without) - (taken_more.price - taken.price);
     return Weight{jointDeviance(profiles, &NoiseProfile::with_unknown) - with_unknown - price,
                   jointDeviance(profiles, &NoiseProfile::noise_alone) - noise_alone - price};
   };
@@ -740,7 +757,8 @@ void PosteriorSearch::weighAgainstUnknown(EffectPosterior& posterior, Remainder&
   if (found.size() > 1) posterior.over_unknown = over(found).over_unknown;
 }
 
-EffectPosterior PosteriorSearch::run(const JobContext& job, const ModelTerm* off) {
+EffectPosterior PosteriorSearch::run(const JobContext& job, const ModelTerm* off,
+                                     const std::vector<std::vector<ModelTerm>>& known) {
   EffectPosterior out;
   std::vector<State> visited;
   State start = stateOf({}, 0);
@@ -788,6 +806,10 @@ EffectPosterior PosteriorSearch::run(const JobContext& job, const ModelTerm* off
     if (better) best = beam.front();
     // Two that only together explain something: one step more is looked at, no further.
     if (beam.front().evidence < best.evidence - 12.0) break;
+  }
+  for (const std::vector<ModelTerm>& terms : known) {
+    visited.push_back(stateOf(terms, 1));
+    if (visited.back().evidence > best.evidence) best = visited.back();
   }
   if (best.fit.terms.size() > options_->accept.size()) best = exchanged(best, job, visited);
   const auto refined = [&](State state) {
@@ -877,6 +899,19 @@ EffectPosterior PosteriorSearch::run(const JobContext& job, const ModelTerm* off
         sets.try_emplace(keyOf(s.fit.terms), s.evidence, std::set<std::string>(ids.begin(), ids.end()));
     if (!fresh) at->second.first = std::max(at->second.first, s.evidence);
   }
+  std::map<std::string, const State*> near;
+  for (const State& s : visited) {
+    if (s.evidence < best.evidence - close_window || keyOf(s.fit.terms) == keyOf(best.fit.terms)) continue;
+    const State*& at = near[keyOf(s.fit.terms)];
+    if (at == nullptr || s.evidence > at->evidence) at = &s;
+  }
+  std::vector<const State*> nearest;
+  nearest.reserve(near.size());
+  for (const auto& [key, state] : near) nearest.push_back(state);
+  std::stable_sort(nearest.begin(), nearest.end(),
+                   [](const State* a, const State* b) { return a->evidence > b->evidence; });
+  if (nearest.size() > most_close) nearest.resize(most_close);
+  for (const State* state : nearest) out.close.push_back(state->fit);
   // Effects that nobody had to follow are weighed by their fit on the grid, alone beside what the user put in.
   for (const CandidateFit& c : library_->sweep(given(start.fit), idsOf(start.fit.terms), job)) {
     std::vector<ModelTerm> together = start.fit.terms;

@@ -7,14 +7,15 @@
 //              [gains ln n + ln(ways of the effect) + 2 ln(effects of the catalogue) + 2 ln(odds against one more)
 //               + chi-squared of what the simulation, or the other effects, may be off by where it acts]
 //
-// chi-squared is what remains under the noise as found, marginal over all nuisances and over M, by which every effect
-// may differ from the machine's own behaviour: another size at every point and in every span of time, a part kappa of
-// it; with some probability also a smaller part in a component in which its formula has nothing. Sets are found by a
-// beam search with joint refits of all lags and onsets and by exchanging every effect for every other; the
-// probabilities of all sets that were visited are compared. For every effect of the best set the alternatives in its
-// place are its rivals, their share of the probability is the confidence. Sources: Schwarz 1978; Kennedy and O'Hagan
-// 2001 (model discrepancy); Madigan and Raftery 1994 (Occam's window); Wang, Sarkar, Carbonetto and Stephens 2020
-// (credible sets of single effects).
+// chi-squared is what remains under the noise as found (estimated beside one set, it favours that one: the next noise
+// is estimated beside the set that is likeliest with noise of its own), marginal over all nuisances and over M, by
+// which every effect may differ from the machine's own behaviour: another size at every point and in every span of
+// time, a part kappa of it; with some probability also a smaller part in a component in which its formula has nothing.
+// Sets are found by a beam search with joint refits of all lags and onsets and by exchanging every effect for every
+// other; the probabilities of all sets that were visited are compared. For every effect of the best set the
+// alternatives in its place are its rivals, their share of the probability is the confidence. Sources: Schwarz 1978;
+// Kennedy and O'Hagan 2001 (model discrepancy); Madigan and Raftery 1994 (Occam's window); Wang, Sarkar, Carbonetto and
+// Stephens 2020 (credible sets of single effects).
 #pragma once
 
 #include <array>
@@ -75,6 +76,8 @@ struct DiscrepancyPriors {
   /// Evidence (2 ln of the odds) from which on effects are believed in place of noise that is common to a state or
   /// follows itself in time: "very strong" (Kass and Raftery 1995, above 10), for it is looked for a second time.
   double instead_of_common_noise = 12.0;
+  /// The same from which on a set is the likelier one because it is so beside noise of its own: "strong" (above 6).
+  double beside_own_noise = 6.0;
   /// Standard deviation of the offset between the clocks of log and observations, s.
   double clock_s = 120.0;
   /// Probability that they are far apart: summer time, a clock that was never set.
@@ -129,6 +132,8 @@ struct EffectPosterior {
   /// is among them.
   std::vector<std::pair<std::string, double>> candidates;
   std::vector<DiscrepancyStep> steps;
+  /// Other sets that were looked at and are hardly less probable, most probable first.
+  std::vector<JointFit> close;
 };
 
 /// What the effects leave that is neither noise nor nothing: smooth courses in time, of all points together and
@@ -149,10 +154,10 @@ struct Remainder {
 /// where too few readings could tell.
 [[nodiscard]] double smoothBesideNoise(const ResidualProblem& problem, const JointFit& fit, const JointFit& named);
 
-/// -2 ln of the probability of the data with the effects of `posterior`, up to a constant: beside noise and a smooth
-/// remainder made as large as needed, with the nuisances and the weights of readings as the noise of `problem` has
-/// them. Tells answers apart that were found beside different noise.
-[[nodiscard]] double answerDeviance(const ResidualProblem& problem, const EffectPosterior& posterior);
+/// -2 ln of the probability of the data with the effects of `fit` and the `price` of these (EffectPosterior::price), up
+/// to a constant: beside noise and a smooth remainder made as large as needed, with the nuisances and the weights of
+/// readings as the noise of `problem` has them. Tells answers apart that were found beside different noise.
+[[nodiscard]] double answerDeviance(const ResidualProblem& problem, const JointFit& fit, double price);
 
 class PosteriorSearch {
  public:
@@ -160,8 +165,14 @@ class PosteriorSearch {
                   const DiscrepancyOptions& options, const DiscrepancyPriors& priors, double simulation_error);
 
   /// `off`: a part of the simulation whose size is taken to be wrong, as the simulation has it; it is in the set from
-  /// the start, and pays neither for the choice of its dynamics nor for errors that the simulation may have.
-  [[nodiscard]] EffectPosterior run(const JobContext& job, const ModelTerm* off = nullptr);
+  /// the start, and pays neither for the choice of its dynamics nor for errors that the simulation may have. `known`:
+  /// sets found beside other noise, which are looked at as well.
+  [[nodiscard]] EffectPosterior run(const JobContext& job, const ModelTerm* off = nullptr,
+                                    const std::vector<std::vector<ModelTerm>>& known = {});
+  /// The set of `posterior`, or the one of those close to it that is more probable by
+  /// DiscrepancyPriors::beside_own_noise where each has the noise that it needs. The noise of the problem was found
+  /// beside something else.
+  [[nodiscard]] const JointFit& likeliestBesideItsOwnNoise(const EffectPosterior& posterior) const;
   /// Fills what every effect and all together are beside noise and a smooth remainder made as large as needed; what
   /// noise alone explains in `remainder` is none.
   void weighAgainstUnknown(EffectPosterior& posterior, Remainder& remainder) const;
@@ -192,6 +203,8 @@ class PosteriorSearch {
   /// What each term may do in components in which it does not act, a column for each way.
   [[nodiscard]] Eigen::MatrixXd crosstalkColumns(const JointFit& fit) const;
   [[nodiscard]] double priceOf(const JointFit& fit) const;
+  /// With that of its gains.
+  [[nodiscard]] double wholePriceOf(const JointFit& fit) const;
   /// What others may be off by, in just the way that each effect follows: chi-squared that it must bring beyond.
   [[nodiscard]] double imitationPrice(const JointFit& fit) const;
   /// What noise and steps of the sensors that drive a term leave in its course, a column for each time that this

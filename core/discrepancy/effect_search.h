@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Fits effects to a ResidualProblem by variable projection: gains linear, lags and onsets on a grid, then by line
-// search.
+// searches and all together.
 #pragma once
 
 #include <Eigen/Core>
@@ -70,7 +70,8 @@ class EffectSearch {
   [[nodiscard]] Eigen::VectorXd course(const ModelTerm& term, const Eigen::VectorXd& gains) const;
   /// Gains at fixed non-linear parameters.
   [[nodiscard]] JointFit solve(const std::vector<ModelTerm>& terms) const;
-  /// Line searches over all non-linear parameters; `rounds` passes.
+  /// Searches over all non-linear parameters, each for itself and then together; `rounds` passes. Where all terms are
+  /// admissible at the start they stay so.
   [[nodiscard]] JointFit refine(const std::vector<ModelTerm>& terms, int rounds) const;
   /// Signs, origins, ratios and what was warm at the start are within what EFFECTS.md and physics allow.
   [[nodiscard]] bool admissible(const ModelTerm& term, const Eigen::VectorXd& gains) const;

@@ -593,7 +593,7 @@ constexpr std::array kinds{
                              .made_from = CompensateLog::madeFrom}),
     declared<Discrepancy>({.id = "discrepancy",
                            .title = "Searching for what the simulation lacks",
-                           .revision = 4,
+                           .revision = 5,
                            .of_observations = true,
                            .belongs = withSimulation,
                            .blocked = Discrepancy::blocked,

@@ -333,11 +333,10 @@ TEST(NoiseAlone, AnAnswerPaysForWhatItsNoiseLeavesToTheSimulation) {
     NoiseModel own = problem.noise;
     for (const Component c : axes) own.of(c).common = 0.0;
     without.setNoise(own);
-    EffectPosterior nothing;
-    const double with_shifts = answerDeviance(problem, nothing);
-    nothing.price = 7.0;
-    EXPECT_NEAR(answerDeviance(problem, nothing), with_shifts + 7.0, 1e-9);
-    return answerDeviance(without, EffectPosterior()) - with_shifts;
+    const JointFit nothing;
+    const double with_shifts = answerDeviance(problem, nothing, 0.0);
+    EXPECT_NEAR(answerDeviance(problem, nothing, 7.0), with_shifts + 7.0, 1e-9);
+    return answerDeviance(without, nothing, 0.0) - with_shifts;
   };
   for (const std::uint64_t seed : {11U, 12U, 13U, 14U}) {
     EXPECT_GT(dearer(seed, 10.0), 10.0) << seed;
