@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <optional>
 #include <utility>
 
@@ -475,10 +476,29 @@ JudgedAnalysis withClock(const DiscrepancyInput& input, const DiscrepancyOptions
   return out;
 }
 
+/// What readings with heavy tails cost beyond the normal ones with the weights that these gave them, in 2 ln: an answer
+/// that calls more readings outliers is not the more probable one for that.
+double devianceOfTails(const ResidualProblem& problem) {
+  if (problem.noise.weight.size() == 0) return 0.0;
+  double sum = 0.0;
+  for (Index u = 0; u < problem.size(); ++u) {
+    const double dof = problem.noise.of(problem.component[static_cast<std::size_t>(u)]).tail_dof;
+    if (!(dof > 0.0)) continue;
+    const double weight = problem.noise.weight[u];
+    const double square = std::max(0.0, (dof + 1.0) / weight - dof);  // of the reading over its scale
+    const double student = (dof + 1.0) * std::log1p(square / dof) + std::log(dof * std::numbers::pi) -
+                           2.0 * (std::lgamma(0.5 * (dof + 1.0)) - std::lgamma(0.5 * dof));
+    const double normal = weight * square - std::log(weight) + std::log(2.0 * std::numbers::pi);
+    sum += student - normal;
+  }
+  return sum;
+}
+
 /// -2 ln of the probability of the data of an answer, for each reading.
 double devianceOfEach(const JudgedAnalysis& answer) {
   const EffectPosterior& posterior = answer.analysis->posterior;
-  return answerDeviance(*answer.problem, posterior.fit, posterior.price) / static_cast<double>(answer.rows.fit.size());
+  return (answerDeviance(*answer.problem, posterior.fit, posterior.price) + devianceOfTails(*answer.problem)) /
+         static_cast<double>(answer.rows.fit.size());
 }
 
 /// The clock as the simulation shows it beside what was found, s; 0 where it shows none.
@@ -531,13 +551,16 @@ void followSimulationClock(JudgedAnalysis& answer, const DiscrepancyOptions& opt
     const Analysis& a = *answer.analysis;
     DriverTable drivers = *a.drivers;
     drivers.shiftClock(-a.clock_offset_s);
-    // What is named may stand for the clock, and what is not named yet may look like one: both are tried.
+    // What is named may stand for the clock, and what is not named yet may look like one: both are tried; and that of
+    // the log, as what was found follows it.
     std::vector<double> steps_s;
     if (k == 0) steps_s.push_back(simulationClock(*answer.problem, drivers, a.catalogue, a.parts, priors.clock_s));
+    if (k == 0) steps_s.push_back(a.clock_offset_s);
     steps_s.push_back(stepOfSimulationClock(*answer.problem, a));
     std::optional<JudgedAnalysis> better;
+    double most_worth = 0.0;
     for (const double by_s : steps_s) {
-      if (by_s == 0.0 || better || !logCovers(*answer.input, answer.log_clock_s + by_s)) continue;
+      if (by_s == 0.0 || !logCovers(*answer.input, answer.log_clock_s + by_s)) continue;
       const std::shared_ptr<const DiscrepancyInput> moved = askedLater(*answer.input, drivers, a.parts, by_s);
       DiscrepancyPriors known = priors;
       known.clock_s = uncertaintyOf(moved->log_clock_s - start_s);
@@ -546,7 +569,9 @@ void followSimulationClock(JudgedAnalysis& answer, const DiscrepancyOptions& opt
       const double worth =
           (devianceOfEach(answer) - devianceOfEach(again)) * static_cast<double>(answer.rows.fit.size()) +
           prior(answer.log_clock_s) - prior(again.log_clock_s);
-      if (worth > 0.0) better = std::move(again);
+      if (worth <= most_worth) continue;
+      most_worth = worth;
+      better = std::move(again);
     }
     if (!better) break;
     answer = std::move(*better);

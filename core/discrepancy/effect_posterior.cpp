@@ -496,7 +496,7 @@ PosteriorSearch::State PosteriorSearch::stateOf(const std::vector<ModelTerm>& te
   bool cold = false;  // something would have been warmer at the start than it can be: then it was not
   std::vector<ModelTerm> without_start = out.fit.terms;
   for (std::size_t t = 0; t < terms.size(); ++t) {
-    if (search_->admissible(out.fit.terms[t], out.fit.gains[t])) continue;
+    if (search_->admissible(out.fit.terms[t], out.fit.gains[t], EffectSearch::believed_in_one_state)) continue;
     out.evidence -= inadmissible_price;
     if (!warmStart(without_start[t].variant)) continue;
     without_start[t].variant.inputs.pop_back();
@@ -516,7 +516,7 @@ PosteriorSearch::State PosteriorSearch::stateWith(const std::vector<ModelTerm>& 
   with.push_back(candidate.term);
   State best = stateOf(with, rounds);
   if (!throughTwoLags(best.fit.terms.back().variant) &&
-      search_->admissible(best.fit.terms.back(), best.fit.gains.back()))
+      search_->admissible(best.fit.terms.back(), best.fit.gains.back(), EffectSearch::believed_in_one_state))
     return best;
   for (const ModelTerm& other : candidate.other_ways) {
     with.back() = other;
@@ -552,18 +552,21 @@ PosteriorSearch::State PosteriorSearch::withFewerLags(State state, int rounds) c
   return state;
 }
 
+void PosteriorSearch::appendOtherNames(const std::vector<ModelTerm>& terms, std::vector<std::string>& ids) const {
+  for (const ModelTerm& term : terms) {
+    if (!driverless(*term.effect)) continue;
+    for (const Effect& effect : search_->catalogue()) {
+      if (driverless(effect) && sameShape(search_->shape(effect), search_->shape(*term.effect)))
+        ids.push_back(effect.id);
+    }
+  }
+}
+
 std::vector<PosteriorSearch::State> PosteriorSearch::extend(const State& state, std::size_t most, const JobContext& job,
                                                             double least) const {
   std::vector<std::string> skip = idsOf(state.fit.terms);
   skip.insert(skip.end(), options_->reject.begin(), options_->reject.end());
-  // Another name of one that is in: the same pattern, and nothing drives either.
-  for (const ModelTerm& term : state.fit.terms) {
-    if (!driverless(*term.effect)) continue;
-    for (const Effect& effect : search_->catalogue()) {
-      if (driverless(effect) && sameShape(search_->shape(effect), search_->shape(*term.effect)))
-        skip.push_back(effect.id);
-    }
-  }
+  appendOtherNames(state.fit.terms, skip);
   const std::vector<CandidateFit> found = library_->sweep(given(state.fit), skip, job);
   std::vector<const CandidateFit*> tried;
   for (const CandidateFit& c : found) {
@@ -632,7 +635,9 @@ SlotEvidence PosteriorSearch::slotOf(const State& best, std::size_t t, const Job
   out.delta_chi2 = without.fit.chi2 - best.fit.chi2;
   out.delta_evidence = best.evidence - without.evidence;
   // Everything that could stand in its place, what the user rejected as well: it is told, not named.
-  const std::vector<CandidateFit> found = library_->sweep(given(without.fit), idsOf(best.fit.terms), job);
+  std::vector<std::string> skip = idsOf(best.fit.terms);
+  appendOtherNames(others, skip);
+  const std::vector<CandidateFit> found = library_->sweep(given(without.fit), skip, job);
   std::vector<const CandidateFit*> tried;
   for (const CandidateFit& c : found) {
     if (tried.size() >= 2 * most_tried || c.evidence < out.delta_evidence - sweep_window - occam_window) break;
@@ -899,9 +904,17 @@ EffectPosterior PosteriorSearch::run(const JobContext& job, const ModelTerm* off
         sets.try_emplace(keyOf(s.fit.terms), s.evidence, std::set<std::string>(ids.begin(), ids.end()));
     if (!fresh) at->second.first = std::max(at->second.first, s.evidence);
   }
+  // What the user put in or took out is so in all of them.
+  const auto asTheUserWants = [&](const State& s) {
+    const std::vector<std::string> ids = idsOf(s.fit.terms);
+    const auto has = [&](const std::string& id) { return std::find(ids.begin(), ids.end(), id) != ids.end(); };
+    return std::all_of(options_->accept.begin(), options_->accept.end(), has) &&
+           std::none_of(options_->reject.begin(), options_->reject.end(), has) && (off_.empty() || has(off_));
+  };
   std::map<std::string, const State*> near;
   for (const State& s : visited) {
     if (s.evidence < best.evidence - close_window || keyOf(s.fit.terms) == keyOf(best.fit.terms)) continue;
+    if (!asTheUserWants(s)) continue;
     const State*& at = near[keyOf(s.fit.terms)];
     if (at == nullptr || s.evidence > at->evidence) at = &s;
   }

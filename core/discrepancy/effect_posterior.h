@@ -195,6 +195,8 @@ class PosteriorSearch {
   /// An effect whose driver acts through two lags, where one says as much: lags that stand between those of the grid
   /// look like two of them.
   [[nodiscard]] State withFewerLags(State state, int rounds) const;
+  /// Other names of what is in: the same pattern, and nothing drives either.
+  void appendOtherNames(const std::vector<ModelTerm>& terms, std::vector<std::string>& ids) const;
   /// `state` and one more effect, the `most` best; on the grid, where lags are not refined yet, they promise `least`.
   [[nodiscard]] std::vector<State> extend(const State& state, std::size_t most, const JobContext& job,
                                           double least = std::numeric_limits<double>::lowest()) const;

@@ -138,7 +138,7 @@ bool drivenByStandIn(const ModelTerm& term) {
   return term.effect->driver_missing && drivenByLog(term);
 }
 
-bool EffectSearch::admissible(const ModelTerm& term, const Eigen::VectorXd& gains) const {
+bool EffectSearch::admissible(const ModelTerm& term, const Eigen::VectorXd& gains, double in_one_state) const {
   const Effect& effect = *term.effect;
   const auto k = static_cast<Index>(effect.shape.size());
   const auto& inputs = term.variant.inputs;
@@ -162,13 +162,11 @@ bool EffectSearch::admissible(const ModelTerm& term, const Eigen::VectorXd& gain
       if (most > 0.0 && std::abs(own[static_cast<Index>(c)]) > most * std::abs(to)) return false;
     }
   }
-  // What one state alone shows is no load but a state that went wrong.
   const Dynamics first = inputs[0].dynamics;
   if (first == Dynamics::Pulse && inputs.size() == 1 && problem_->epoch_time_s.size() >= 6) {
     const Eigen::VectorXd q = inputResponses(*drivers_, term.variant, term.parameters, problem_->epoch_time_s).col(0);
     const Eigen::ArrayXd moved = (q.array() - median(std::vector<double>(q.begin(), q.end()))).square();
-    constexpr double most_in_one = 0.8;
-    if (moved.maxCoeff() > most_in_one * moved.sum()) return false;
+    if (moved.maxCoeff() > in_one_state * moved.sum()) return false;
   }
   // What moved was seen where it was and where it is: one or two readings that are off may have gone wrong.
   if (first == Dynamics::Step && problem_->epoch_time_s.size() >= 6) {

@@ -73,8 +73,14 @@ class EffectSearch {
   /// Searches over all non-linear parameters, each for itself and then together; `rounds` passes. Where all terms are
   /// admissible at the start they stay so.
   [[nodiscard]] JointFit refine(const std::vector<ModelTerm>& terms, int rounds) const;
+  /// Part of the power of a load without a driver that one state alone may show: more is no load but a state that went
+  /// wrong. While parameters move, up to the first; a load that has come to rest there would have shrunk to that state,
+  /// so of one that is believed up to the second.
+  static constexpr double most_in_one_state = 0.8;
+  static constexpr double believed_in_one_state = 0.75;
   /// Signs, origins, ratios and what was warm at the start are within what EFFECTS.md and physics allow.
-  [[nodiscard]] bool admissible(const ModelTerm& term, const Eigen::VectorXd& gains) const;
+  [[nodiscard]] bool admissible(const ModelTerm& term, const Eigen::VectorXd& gains,
+                                double in_one_state = most_in_one_state) const;
   /// d fitted / d (non-linear parameter p) over the units, um (or urad) per s.
   [[nodiscard]] Eigen::VectorXd derivative(const ModelTerm& term, const Eigen::VectorXd& gains, std::size_t p) const;
   /// rms of prediction of epochs left out (constants from the rest of the series): without and with terms. Five

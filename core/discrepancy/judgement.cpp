@@ -720,7 +720,8 @@ Judgement judge(const ResidualProblem& problem, const EffectSearch& search, cons
     if (out.names[k].forced || parts.empty()) continue;
     std::vector<ModelTerm> others = terms;
     others.erase(others.begin() + static_cast<std::ptrdiff_t>(k));
-    const Eigen::VectorXd left = problem.projected(problem.without(search.solve(others).contribution)).col(0);
+    // The others have made room for it, as they had when it was weighed.
+    const Eigen::VectorXd left = problem.projected(problem.without(search.refine(others, 1).contribution)).col(0);
     const PartInstead* best = nullptr;
     std::vector<PartInstead> all;
     for (const SimulationPart& part : parts) all.push_back(partInstead(problem, part, left, priors));

@@ -83,8 +83,8 @@ JobBar::JobBar(JobRunner& runner, QWidget* parent) : QFrame(parent), runner_(run
               tone = Tone::Neutral;
               text = tr("%1: cancelled, nothing was changed").arg(title);
             }
-            // What was read to be shown stands on the page; what was said before stays said.
-            if (queue != JobQueue::Display || outcome != JobOutcome::Done) say({icon, tone, text});
+            // What was read to be shown stands on the page, and what it takes the place of is forgotten.
+            if (queue != JobQueue::Display || outcome == JobOutcome::Failed) say({icon, tone, text});
             if (!runner_.title().isEmpty()) return;
             showSaid();
             // The next one, if it is to be seen, shows them again.

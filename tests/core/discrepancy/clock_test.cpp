@@ -184,6 +184,7 @@ TEST(SimulationClock, MinutesBesideWhatFollowsWithinMinutes) {
       DiscrepancyInput input = campaign(Hidden::Nothing, seed);
       const std::vector<double> coolant = switchedCoolant(input.log->time_s().size(), 40 + seed);
       input.log->setSignal("coolant", coolant);
+      const std::vector<double> rpm = *input.log->signal("spindle_rpm");
       const double step_s = input.log->time_s()[1] - input.log->time_s()[0];
       for (std::size_t i = 0; i < input.predicted.size(); ++i) {
         Observation& o = input.observations.rows[i];
@@ -192,6 +193,11 @@ TEST(SimulationClock, MinutesBesideWhatFollowsWithinMinutes) {
           o.value += 30.0 * lagged(coolant, step_s, 200.0, o.time_s + log_ahead_s);
         } else if (o.component == Component::EY) {
           o.value += 5.0 * lagged(coolant, step_s, 900.0, o.time_s + log_ahead_s);
+        } else {
+          // The spindle's growth goes with the log as well.
+          o.value -= input.predicted[i] / 1.006;
+          o.value += 2e-3 * lagged(rpm, step_s, 1500.0, o.time_s + log_ahead_s);
+          input.predicted[i] = 1.006 * 2e-3 * lagged(rpm, step_s, 1500.0, o.time_s);
         }
       }
       const DiscrepancyResult result = run(input);
