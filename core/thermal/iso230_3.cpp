@@ -592,7 +592,7 @@ SpindleResult evaluateRotatingSpindle(std::span<const double> time_s, std::span<
 AxisResult evaluateMovingAxis(std::vector<AxisReading> readings) {
   if (readings.size() < 8)
     throw InputError(
-        fmt::format("{} readings of the axis; allowed: at least 4 at each of two positions.", readings.size()));
+        fmt::format("readings of the axis: {}; allowed: at least 4 at each of two positions.", readings.size()));
   std::stable_sort(readings.begin(), readings.end(),
                    [](const AxisReading& a, const AxisReading& b) { return a.time_s < b.time_s; });
   const auto [low, high] = std::minmax_element(

@@ -142,6 +142,7 @@ PreparedModel prepareNineParameters(const ObservationSet& observations, const Co
   const NineParameterFit fit = fitNineParameters(observations, options);
   if (fit.status != FitStatus::Converged) {
     throw InputError(
+        {observations.file},
         fmt::format("state {} cannot be compensated: {}. The nine-parameter model needs at least three points that are "
                     "not on one line.",
                     fit.state, fit.message));

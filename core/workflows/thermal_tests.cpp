@@ -61,7 +61,11 @@ Iso230Result evaluateAxis(const Iso230Request& request) {
   }
   Iso230Result result;
   result.test = "axis";
-  result.axis = evaluateMovingAxis(std::move(readings));
+  try {
+    result.axis = evaluateMovingAxis(std::move(readings));
+  } catch (const InputError& e) {
+    throw InputError({request.observations, "column component"}, e.sentence());
+  }
   result.diagram =
       drawCurves("Expansion between both ends, axis " + request.axis + ", µm",
                  {{"expansion", result.axis->time_s, result.axis->expansion_over_time_um, {}, SeriesStyle::Line}});

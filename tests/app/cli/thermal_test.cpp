@@ -138,6 +138,16 @@ TEST_F(Thermal, IsoTestTakesARangeAndAWindow) {
   expectBadInput(one, {"--window"});
 }
 
+TEST_F(Thermal, TheAxisTestNamesTheFileWithTooFewReadings) {
+  const std::string file = folder
+                               .write("observations.csv",
+                                      "time_s,state,point,x_mm,y_mm,z_mm,component,value,sigma,instrument\n"
+                                      "0,M0,A,10,0,0,EX,1.0,0.5,probe\n60,M1,A,10,0,0,EX,2.0,0.5,probe\n")
+                               .string();
+  expectBadInput({"thermal", "iso230-3", "--test", "axis", "--observations", file},
+                 {"observations.csv", "readings of the axis: 2", "allowed"});
+}
+
 TEST_F(Thermal, TrackDrawsAndTakesAContext) {
   auto words = identify();
   const std::string model = (folder / "model.json").string();

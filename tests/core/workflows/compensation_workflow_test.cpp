@@ -123,6 +123,22 @@ TEST(CompensationPlan, SaysWhenItDoesMoreHarmThanGood) {
   EXPECT_EQ(plan.json()["good_enough"], false);
 }
 
+TEST(CompensationPlan, NamesTheFileThatCannotBeCompensated) {
+  Campaign campaign = campaignOf(0.0, false, 6);
+  ObservationSet& set = campaign.observations.edit();
+  set.file = "observations.csv";
+  const std::string kept = set.rows.front().point;
+  std::erase_if(set.rows, [&](const Observation& o) { return o.point != kept; });
+  CompensationRequest request;
+  JobContext job;
+  try {
+    (void)planCompensation(campaign, *campaign.observations, request, job);
+    ADD_FAILURE() << "one point";
+  } catch (const InputError& e) {
+    EXPECT_THAT(e.what(), HasSubstr("observations.csv: state "));
+  }
+}
+
 TEST(CompensationPlan, TheLinesOfItsTablesPassWhereTheMachineCanGo) {
   const Campaign campaign = campaignOf(0.0, false, 6);
   CompensationRequest request;
