@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/SVD>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -32,30 +32,22 @@ struct Handedness {
   double turned_mm = 0.0;
   double mirrored_mm = 0.0;
 };
-/// Best turn by the singular value decomposition (Umeyama 1991). Balls in one plane fit equally well either way.
+/// What the best turn and shift leave, rms (Umeyama 1991), mm.
+double rmsWhereTurned(const Eigen::Matrix3Xd& certified_mm, const Eigen::Matrix3Xd& found_mm) {
+  const Eigen::Isometry3d turn(Eigen::umeyama(certified_mm, found_mm, false));
+  return std::sqrt((turn * certified_mm - found_mm).squaredNorm() / static_cast<double>(found_mm.cols()));
+}
+/// Balls in one plane fit equally well either way.
 Handedness handednessOf(const std::vector<Eigen::Vector3d>& certified_mm,
                         const std::vector<Eigen::Vector3d>& found_mm) {
-  const auto n = static_cast<double>(found_mm.size());
-  Eigen::Vector3d certified_mean = Eigen::Vector3d::Zero();
-  Eigen::Vector3d found_mean = Eigen::Vector3d::Zero();
-  for (std::size_t i = 0; i < found_mm.size(); ++i) {
-    certified_mean += certified_mm[i] / n;
-    found_mean += found_mm[i] / n;
-  }
-  Eigen::Matrix3d product = Eigen::Matrix3d::Zero();
-  double squares = 0.0;
-  for (std::size_t i = 0; i < found_mm.size(); ++i) {
-    const Eigen::Vector3d c = certified_mm[i] - certified_mean;
-    const Eigen::Vector3d f = found_mm[i] - found_mean;
-    product += f * c.transpose();
-    squares += c.squaredNorm() + f.squaredNorm();
-  }
-  const Eigen::Vector3d s = Eigen::JacobiSVD<Eigen::Matrix3d>(product).singularValues();
-  const double sign = product.determinant() < 0.0 ? -1.0 : 1.0;
-  const auto rms = [&](double last) {
-    return std::sqrt(std::max(0.0, squares - 2.0 * (s(0) + s(1) + last * s(2))) / n);
+  const auto columns = [](const std::vector<Eigen::Vector3d>& points) {
+    return Eigen::Matrix3Xd(
+        Eigen::Map<const Eigen::Matrix3Xd>(points.front().data(), 3, static_cast<Eigen::Index>(points.size())));
   };
-  return {rms(sign), rms(-sign)};
+  if (found_mm.empty()) return {};
+  const Eigen::Matrix3Xd certified = columns(certified_mm);
+  const Eigen::Matrix3Xd found = columns(found_mm);
+  return {rmsWhereTurned(certified, found), rmsWhereTurned(-certified, found)};
 }
 
 }  // namespace
