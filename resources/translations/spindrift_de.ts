@@ -7875,10 +7875,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>{} Messwerte werden mit der Simulation verglichen</translation>
     </message>
     <message>
-        <source>{} readings of the axis; allowed: at least 4 at each of two positions.</source>
-        <translation>{} Messwerte der Achse; zulässig: mindestens 4 an jeder von zwei Positionen.</translation>
-    </message>
-    <message>
         <source>{} refuses &quot;get {}&quot;.</source>
         <translation>{} lehnt „get {}“ ab.</translation>
     </message>
@@ -11855,6 +11851,10 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>The clock of log and simulation is {:.0f} s {} that of the observations, as far as the data show it (± {:.0f} s), so they are compared with both at that time.</source>
         <translation>Die Uhr von Protokoll und Simulation liegt {:.0f} s {} der Uhr der Beobachtungen, soweit die Daten es zeigen (± {:.0f} s); verglichen wird daher mit beiden zu dieser Zeit.</translation>
+    </message>
+    <message>
+        <source>readings of the axis: {}; allowed: at least 4 at each of two positions.</source>
+        <translation>Messwerte der Achse: {}; zulässig: mindestens 4 an jeder von zwei Positionen.</translation>
     </message>
 </context>
 <context>
