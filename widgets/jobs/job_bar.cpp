@@ -83,8 +83,9 @@ JobBar::JobBar(JobRunner& runner, QWidget* parent) : QFrame(parent), runner_(run
               tone = Tone::Neutral;
               text = tr("%1: cancelled, nothing was changed").arg(title);
             }
-            // What was read to be shown stands on the page, and what it takes the place of is forgotten.
-            if (queue != JobQueue::Display || outcome == JobOutcome::Failed) say({icon, tone, text});
+            // What was only read to be shown does not hide what failed.
+            const bool only_shown = queue == JobQueue::Display && outcome != JobOutcome::Failed;
+            if (!only_shown || said_.tone != Tone::Bad) say({icon, tone, text});
             if (!runner_.title().isEmpty()) return;
             showSaid();
             // The next one, if it is to be seen, shows them again.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The bar at the bottom of the window: what runs, how far it is, cancel; and the last thing that was said. What is only
-// read to be shown says something where it failed. All of it can be read again in the list of jobs and messages
+// read to be shown does not hide what failed. All of it can be read again in the list of jobs and messages
 // (activity_dialog.h).
 #pragma once
 

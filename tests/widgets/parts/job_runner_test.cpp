@@ -150,21 +150,6 @@ TEST(JobRunner, WhatIsReadToBeShownDoesNotHideWhatFailed) {
   }
 }
 
-// Read to be shown, and done: what was said before is said again.
-TEST(JobRunner, WhatIsReadToBeShownSaysNothingWhenItIsDone) {
-  JobRunner runner;
-  JobBar bar(runner);
-  bar.setMessage(QStringLiteral("opened"));
-  std::atomic<int> applied{0};
-  Job display = counting(applied);
-  display.queue = JobQueue::Display;
-  runner.run(std::move(display));
-  EXPECT_EQ(bar.message(), QStringLiteral("counting"));
-  EXPECT_TRUE(QTest::qWaitFor([&] { return !runner.busy(); }, 10000));
-  EXPECT_EQ(applied, 1);
-  EXPECT_EQ(bar.message(), QStringLiteral("opened"));
-}
-
 TEST(JobRunner, ClosingWhileAJobRunsIsSafe) {
   std::atomic<bool> started{false};
   bool applied = false;
