@@ -85,7 +85,7 @@ JobBar::JobBar(JobRunner& runner, QWidget* parent) : QFrame(parent), runner_(run
             }
             // What was only read to be shown does not hide what failed.
             const bool only_shown = queue == JobQueue::Display && outcome != JobOutcome::Failed;
-            if (!only_shown || said_.tone != Tone::Bad) say({icon, tone, text});
+            if (!only_shown || !failure_stands_) say({icon, tone, text});
             if (!runner_.title().isEmpty()) return;
             showSaid();
             // The next one, if it is to be seen, shows them again.
@@ -100,6 +100,7 @@ void JobBar::setHint(const QString& text) {
 
 void JobBar::say(Said said) {
   said_ = std::move(said);
+  failure_stands_ = said_.tone == Tone::Bad;
   log_.add(said_.tone, said_.text);
 }
 

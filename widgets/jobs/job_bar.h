@@ -26,6 +26,8 @@ class JobBar : public QFrame {
   void setMessage(const QString& text);
   /// The same with a meaning of its own.
   void setMessage(Tone tone, const QString& text);
+  /// The page on which something failed is left: what the next one reads to be shown may be said in its place.
+  void leaveFailure() { failure_stands_ = false; }
   /// What is connected, as long as it is: stands beside whatever else is said. `text` empty: nothing is.
   void setConnections(Tone tone, const QString& text, const QString& tip);
   [[nodiscard]] QString connections() const;
@@ -54,6 +56,7 @@ class JobBar : public QFrame {
   JobRunner& runner_;
   MessageLog log_;
   Said said_;
+  bool failure_stands_ = false;
   IconLabel* icon_;
   QLabel* text_;
   QProgressBar* progress_;

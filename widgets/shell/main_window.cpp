@@ -148,6 +148,7 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent), workflow_(session
   connect(back_, &QPushButton::clicked, &workflow_, &Workflow::back);
   connect(next_, &QPushButton::clicked, &workflow_, &Workflow::next);
   connect(&workflow_, &Workflow::currentChanged, this, &MainWindow::showStep);
+  connect(&workflow_, &Workflow::currentChanged, job_bar_, &JobBar::leaveFailure);
   connect(&workflow_, &Workflow::statusChanged, this, &MainWindow::offerNextSoon);
   connect(&jobs_, &JobRunner::changed, this, &MainWindow::offerNextSoon);
   connect(&session_, &SessionModel::sessionChanged, this, [this] {

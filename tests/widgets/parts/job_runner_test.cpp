@@ -147,6 +147,14 @@ TEST(JobRunner, WhatIsReadToBeShownDoesNotHideWhatFailed) {
     EXPECT_TRUE(bar.message().contains(QStringLiteral("is not there"))) << bar.message().toStdString();
     for (const Message& message : bar.log().messages())
       EXPECT_FALSE(message.text.contains(QStringLiteral("done"))) << message.text.toStdString();
+    // Another page is another matter.
+    bar.leaveFailure();
+    std::atomic<int> applied{0};
+    Job next = counting(applied);
+    next.queue = JobQueue::Display;
+    runner.run(std::move(next));
+    EXPECT_TRUE(QTest::qWaitFor([&] { return !runner.busy(); }, 10000));
+    EXPECT_EQ(bar.message(), QStringLiteral("counting: done"));
   }
 }
 
