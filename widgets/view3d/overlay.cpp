@@ -55,10 +55,10 @@ void arrowHead(QPainter& painter, const QPointF& tip, const QPointF& direction, 
 }
 
 constexpr double bar_width = 14;
+constexpr double triad_side_px = 92;  // at most
 constexpr int table_scale_px = 11;
 /// Between numbers along an axis in space.
 constexpr double tick_px = 28;
-constexpr double triad_side_px = 92;
 
 /// What stands on the colour bar, and how wide it makes it.
 struct BarLayout {
@@ -176,36 +176,79 @@ QRectF notesPanel(const QStringList& lines, double room) {
   return {8, 8, std::min(width, room) + 16, (metrics.height() + 3) * static_cast<double>(lines.size()) + 9};
 }
 
+namespace {
+
+/// One of the axes in the corner, from their common origin, px.
+struct TriadAxis {
+  QPointF tip;
+  QPointF name;          ///< middle of its letter
+  bool towards = false;  ///< seen along itself: a dot
+};
+
+std::array<TriadAxis, 3> triadAxes(const Camera& camera) {
+  constexpr double length = 28;
+  constexpr double to_letter = 10;
+  constexpr double least_shown = 0.12;
+  std::array<TriadAxis, 3> axes;
+  for (int i = 0; i < 3; ++i) {
+    const Eigen::Vector3d axis = Eigen::Vector3d::Unit(i);
+    const QPointF d(camera.right().dot(axis), -camera.up().dot(axis));
+    const double shown = std::hypot(d.x(), d.y());
+    TriadAxis& one = axes[static_cast<std::size_t>(i)];
+    one.tip = length * d;
+    if (shown <= least_shown) {
+      one = {{}, QPointF(-11, 12), true};
+    } else if (shown > 0.5) {
+      one.name = (length + to_letter / shown) * d;
+    } else {
+      one.name = 2.0 * (length + to_letter) * shown * d + QPointF(6, -6);
+    }
+  }
+  return axes;
+}
+
+/// What they take around their origin, letters and halos among it.
+QRectF triadExtent(const std::array<TriadAxis, 3>& axes) {
+  constexpr double dot = 4;
+  constexpr double letter = 9;
+  QRectF extent(-dot, -dot, 2 * dot, 2 * dot);
+  for (const TriadAxis& axis : axes)
+    extent |= QRectF(axis.name - QPointF(letter, letter), QSizeF(2 * letter, 2 * letter));
+  return extent;
+}
+
+}  // namespace
+
+QRectF triadPlace(const QRectF& view, const Camera& camera) {
+  constexpr double to_edge = 6;
+  QRectF place = triadExtent(triadAxes(camera));
+  place.moveBottomLeft(view.bottomLeft() + QPointF(to_edge, -to_edge));
+  return place;
+}
+
 void paintTriad(QPainter& painter, const QRectF& area, const Camera& camera) {
   painter.save();
   painter.setRenderHint(QPainter::Antialiasing);
   painter.setFont(textFont(sizes::font_secondary, QFont::DemiBold));
   const QFontMetricsF metrics(painter.font());
-  const QPointF centre(area.left() + 46, area.bottom() - 46);
-  constexpr double length = 28;
+  const std::array<TriadAxis, 3> axes = triadAxes(camera);
+  const QPointF centre = triadPlace(area, camera).topLeft() - triadExtent(axes).topLeft();
   std::array<int, 3> order{0, 1, 2};
   std::sort(order.begin(), order.end(), [&](int a, int b) {
     return camera.forward()[a] > camera.forward()[b];  // far ones first
   });
   for (const int i : order) {
-    const Eigen::Vector3d axis = Eigen::Vector3d::Unit(i);
-    const QPointF d(camera.right().dot(axis), -camera.up().dot(axis));
-    const double shown = std::hypot(d.x(), d.y());
-    const QPointF tip = centre + length * d;
+    const TriadAxis& axis = axes[static_cast<std::size_t>(i)];
     painter.setPen(QPen(axisColour(i), 2.2, Qt::SolidLine, Qt::RoundCap));
-    if (shown > 0.12) {
-      painter.drawLine(centre, tip);
-      const QString name = QString(QLatin1Char("XYZ"[i]));
-      const QPointF beyond = centre + (length + 10) / std::max(shown, 0.5) * shown * d / shown * shown;
-      const QPointF at = shown > 0.5 ? centre + (length + 10.0 / shown) * d : beyond + QPointF(6, -6);
-      haloText(painter, at + QPointF(-metrics.horizontalAdvance(name) / 2, metrics.ascent() / 2 - 2), name,
-               axisColour(i));
-    } else {
+    if (axis.towards) {
       painter.setBrush(axisColour(i));
       painter.drawEllipse(centre, 3, 3);
-      const QString name = QString(QLatin1Char("XYZ"[i]));
-      haloText(painter, centre + QPointF(-14, 16), name, axisColour(i));
+    } else {
+      painter.drawLine(centre, centre + axis.tip);
     }
+    const QString name = QString(QLatin1Char("XYZ"[i]));
+    haloText(painter, centre + axis.name + QPointF(-metrics.horizontalAdvance(name) / 2, metrics.ascent() / 2 - 2),
+             name, axisColour(i));
   }
   painter.restore();
 }

@@ -21,6 +21,8 @@ QRectF paintColourBar(QPainter& painter, const QRectF& area, const ColourScale& 
 /// The panel at the top left with some lines, none wider than `room`; empty without lines.
 [[nodiscard]] QRectF notesPanel(const QStringList& lines, double room);
 /// Three short axes with their names at the bottom left.
+/// Where the axes stand in the lower left corner of a view: as much of it as they take, seen from where the camera is.
+[[nodiscard]] QRectF triadPlace(const QRectF& view, const Camera& camera);
 void paintTriad(QPainter& painter, const QRectF& area, const Camera& camera);
 /// Travels of the linear axes as double arrows with "X 300 mm".
 void paintMotions(QPainter& painter, const Camera& camera, const QSizeF& size, const MachineBodies& bodies);

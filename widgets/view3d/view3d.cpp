@@ -364,12 +364,16 @@ bool View3D::waitsForItsTurn() {
 void View3D::paintEvent(QPaintEvent*) {
   QPainter painter(this);
   if (!empty() && !waitsForItsTurn()) ensureFrame(size(), devicePixelRatioF());
+  // At a scale of 1.5 a view may begin in the middle of a pixel: a picture of its size then leaves one row or column
+  // out, and nothing is painted under a view that says it is opaque.
+  const QRect whole = rect().adjusted(-1, -1, 1, 1);
   if (empty() || !failure_.isEmpty() || frame_.isNull()) {
     QLinearGradient background(0, 0, 0, height());
     background.setColorAt(0, theme().view_top);
     background.setColorAt(1, theme().view_bottom);
-    painter.fillRect(rect(), background);
+    painter.fillRect(whole, background);
   } else {
+    painter.fillRect(whole, theme().view_bottom);
     painter.drawImage(QPointF(0, 0), frame_);
   }
   paintOverlay(painter, size(), true);
@@ -421,7 +425,7 @@ void View3D::paintOverlay(QPainter& painter, const QSize& size, bool with_tools)
   const QStringList lines = wrappedNotes(notes(size), room, size.height());
   const double line_height = metrics.height() + 3;
   const QRectF panel = notesPanel(lines, room);
-  const QRectF triad(whole.left(), whole.bottom() - 92, 92, 92);
+  const QRectF triad = triadPlace(whole, camera_);
   std::vector<QRectF> keep_out{bar, panel, triad};
   if (with_tools && !tools_->isHidden()) keep_out.emplace_back(tools_->geometry());
   if (bodies_ && !machine_visible_)

@@ -295,6 +295,7 @@ class View3D : public QWidget {
   bool at_map_ = false;  ///< looks at the map, whatever it will be
   bool fitted_ = false;  ///< the camera has been fitted to the content
   Camera automatic_;     ///< as it was fitted: while nobody turns it, it is fitted again when the size changes
+  QSize automatic_for_;  ///< the size that it was fitted to
   bool following_ = false;
   QPointF press_position_;
   QPointF last_position_;

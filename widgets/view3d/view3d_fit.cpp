@@ -2,6 +2,7 @@
 // How the 3D view fits what it shows into its pane: as large as it gets, beside colour bar, notes, numbers and buttons.
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <vector>
 
 #include "widgets/theme/fonts.h"
@@ -21,6 +22,8 @@ constexpr double motion_label_px = 26;
 constexpr double surface_axis_px = 56;
 /// Of the height at most this is left to the notes.
 constexpr double most_for_notes = 0.35;
+/// By so much at most a map gets smaller for the axes in the corner.
+constexpr double most_for_axes = 1.12;
 /// Panes narrower than this are too small for a colour bar with a place of its own.
 constexpr int narrow_px = 200;
 constexpr int least_for_bar_below_px = 220;
@@ -73,8 +76,29 @@ Camera View3D::cameraFor(const QSize& size, const Arrangement& arrangement) cons
   }
   const QMarginsF tools = fitting_for_picture_ ? QMarginsF() : tools_->margins(arrangement.tools_in_column);
   const bool move_the_bar = showsScale() && (arrangement.bar_below || tools.right() > 0.0);
-  if (!tools.isNull() && (move_the_bar || seen.intersects(tools_->place(arrangement.tools_in_column))))
-    camera.fit(box.first, box.second, pane, margins + labels + tools);
+  QMarginsF taken = margins + labels;
+  if (!tools.isNull() && (move_the_bar || seen.intersects(tools_->place(arrangement.tools_in_column)))) {
+    taken += tools;
+    camera.fit(box.first, box.second, pane, taken);
+  }
+  // A map stands beside the axes in the corner, or above them, where that costs it little.
+  seen = camera.frame(box.first, box.second, pane).marginsAdded(labels);
+  const QRectF axes = triadPlace(QRectF(QPointF(0, 0), pane), camera);
+  if (bodies_ && !machine_visible_ && !surface_ && seen.intersects(axes)) {
+    std::optional<Camera> clear;
+    for (const bool beside : {true, false}) {
+      QMarginsF more = taken;
+      if (beside) {
+        more.setLeft(std::max(more.left(), axes.right() + labels.left()));
+      } else {
+        more.setBottom(std::max(more.bottom(), pane.height() - axes.top() + labels.bottom()));
+      }
+      Camera moved = camera;
+      moved.fit(box.first, box.second, pane, more);
+      if (!clear || moved.half_height_mm < clear->half_height_mm) clear = moved;
+    }
+    if (clear->half_height_mm < most_for_axes * camera.half_height_mm) camera = *clear;
+  }
   return camera;
 }
 
@@ -86,7 +110,10 @@ void View3D::fitCamera(const QSize& size) {
     const auto theirs = other->scene_->bounds();
     if (!theirs || other->camera_.vertical != camera_.vertical) continue;
     if ((theirs->first - box->first).norm() + (theirs->second - box->second).norm() > 1.0) continue;
+    // Where nobody has turned it, it is of another size as long as the layout has not come to it.
+    if (other->camera_ == other->automatic_ && other->automatic_for_ != size) continue;
     automatic_ = camera_ = other->camera_;
+    automatic_for_ = other->automatic_for_;
     arrangement_ = other->arrangement_;
     fitted_ = true;
     return;
@@ -104,6 +131,7 @@ void View3D::fitCamera(const QSize& size) {
   camera_ = cameras[best];
   arrangement_ = arrangements[best];
   automatic_ = camera_;
+  automatic_for_ = size;
   fitted_ = true;
   if (!fitting_for_picture_) tools_->arrangeSoon();
   // Linked views that nobody has turned yet look at the same.
@@ -111,6 +139,7 @@ void View3D::fitCamera(const QSize& size) {
     if (other == nullptr || other->fitted_) continue;
     other->setCamera(camera_);
     other->automatic_ = camera_;
+    other->automatic_for_ = size;
     other->arrangement_ = arrangement_;
   }
 }

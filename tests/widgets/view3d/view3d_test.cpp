@@ -456,6 +456,50 @@ TEST(View3D, LinkedViewsLookTheSameWay) {
   EXPECT_EQ(a.camera(), b.camera());
 }
 
+// At a scale of 1.5 a view begins in the middle of a pixel as often as not, and the top of it may be scrolled away.
+TEST(View3D, PaintsEveryPixelAtAScaleOfOneAndAHalf) {
+  QWidget window;
+  window.resize(330, 230);
+  View3D view(&window);
+  view.setMachine(desktopMill());
+  window.show();
+  const QColor nothing(255, 0, 255);
+  for (const QSize size : {QSize(300, 200), QSize(301, 201), QSize(243, 191)}) {
+    for (int y = -60; y <= 3; ++y) {
+      view.setGeometry(QRect(QPoint(y & 3, y), size));
+      QImage picture((QSizeF(window.size()) * 1.5).toSize(), QImage::Format_RGB32);
+      picture.setDevicePixelRatio(1.5);
+      picture.fill(nothing);
+      window.render(&picture);
+      int left = 0;
+      for (int row = 0; row < picture.height(); ++row)
+        for (int x = 0; x < picture.width(); ++x) left += picture.pixel(x, row) == nothing.rgb() ? 1 : 0;
+      ASSERT_EQ(left, 0) << "of a view of " << size.width() << " x " << size.height() << " at " << y;
+    }
+  }
+}
+
+// A layout comes to one view after the other, and a picture may be drawn in between.
+TEST(View3D, LinkedViewsFollowTheirSizeOneAfterTheOther) {
+  View3D a, b, alone;
+  for (View3D* view : {&a, &b, &alone}) {
+    view->resize(300, 200);
+    view->show();
+    view->setMachine(desktopMill());
+    view->setMachineVisible(false);
+    view->resetCamera(StandardView::Top);
+  }
+  a.link(&b);
+  for (const QSize size : {QSize(300, 200), QSize(640, 300), QSize(420, 420)}) {
+    for (View3D* view : {&a, &b, &alone}) {
+      view->resize(size);
+      (void)view->grab();
+    }
+    EXPECT_EQ(a.camera().half_height_mm, alone.camera().half_height_mm) << size.width();
+    EXPECT_EQ(b.camera(), a.camera()) << size.width();
+  }
+}
+
 TEST(View3D, AViewThatNobodyTurnedShowsEverythingAtEverySize) {
   View3D view;
   view.resize(700, 500);
