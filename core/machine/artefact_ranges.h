@@ -11,5 +11,10 @@ constexpr std::array<double, 2> artefact_expansion_range_um_per_m_K{-5.0, 100.0}
 /// is 1.15e-5 in 1/K.
 constexpr double least_artefact_expansion_um_per_m_K = 0.001;
 constexpr std::array<double, 2> artefact_temperature_range_degC{-20.0, 80.0};
+/// At which nominal lengths hold: 20 degC (ISO 1), here and there another room temperature.
+constexpr std::array<double, 2> reference_temperature_range_degC{0.0, 40.0};
+/// Standard uncertainties of the two; 0: exact.
+constexpr double most_artefact_expansion_uncertainty_um_per_m_K = 20.0;
+constexpr double most_artefact_temperature_uncertainty_K = 20.0;
 
 }  // namespace spindrift

@@ -204,6 +204,9 @@ MachineDescription MachineDescription::parse(const JsonNode& root, const std::fi
     machine.crossbeam = parsed;
   }
   machine.reference_temperature_degC = root.numberOr("reference_temperature_degC", 20.0);
+  const auto [least_degC, most_degC] = reference_temperature_range_degC;
+  if (machine.reference_temperature_degC < least_degC || machine.reference_temperature_degC > most_degC)
+    root.at("reference_temperature_degC").reject(fmt::format("a number from {:g} to {:g}", least_degC, most_degC));
   return machine;
 }
 

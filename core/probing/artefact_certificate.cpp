@@ -9,6 +9,7 @@
 #include "core/base/json_reader.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
+#include "core/machine/artefact_ranges.h"
 
 namespace spindrift {
 
@@ -24,11 +25,19 @@ ArtefactCertificate ArtefactCertificate::of(const MachineDescription& machine, c
   for (const JsonNode& node : artefacts ? artefacts->items() : std::vector<JsonNode>{}) {
     if (node.stringOr("id", "") != artefact.id) continue;
     if (const auto sigma = node.find("expansion_uncertainty_um_per_m_K")) {
-      certificate.expansion_sigma_per_K = sigma->nonNegativeNumber() / um_per_m_per_unit;
+      const double value = sigma->nonNegativeNumber();
+      if (value != 0.0 &&
+          !(value >= least_artefact_expansion_um_per_m_K && value <= most_artefact_expansion_uncertainty_um_per_m_K)) {
+        sigma->reject(fmt::format("0, or a number from {:g} to {:g}: µm/(m·K), not 1/K",
+                                  least_artefact_expansion_um_per_m_K, most_artefact_expansion_uncertainty_um_per_m_K));
+      }
+      certificate.expansion_sigma_per_K = value / um_per_m_per_unit;
       expansion_stated = true;
     }
     if (const auto sigma = node.find("temperature_uncertainty_K")) {
       certificate.temperature_sigma_K = sigma->nonNegativeNumber();
+      if (certificate.temperature_sigma_K > most_artefact_temperature_uncertainty_K)
+        sigma->reject(fmt::format("a number from 0 to {:g}", most_artefact_temperature_uncertainty_K));
       temperature_stated = true;
     }
   }
@@ -45,6 +54,32 @@ std::string ArtefactCertificate::takenAsExact(const std::string& artefact, doubl
       "The machine file states no uncertainty of {} of {}: taken as exact, though lengths were corrected by up to "
       "{:.1f} µm/m.",
       joinedList(taken_as_exact), artefact, strain * um_per_m_per_unit);
+}
+
+std::vector<std::string> ArtefactCertificate::notCorrected(
+    const std::string& artefact, const std::vector<std::optional<double>>& temperature_degC) const {
+  std::vector<std::string> warnings;
+  double warmest_K = 0.0;
+  bool unknown = false;
+  for (const std::optional<double>& temperature : temperature_degC) {
+    unknown = unknown || !temperature;
+    warmest_K = std::max(warmest_K, std::abs(temperature.value_or(reference_degC) - reference_degC));
+  }
+  if (!expansion_per_K && warmest_K > 0.0) {
+    warnings.push_back(
+        fmt::format("The expansion coefficient of {} is not stated: its lengths against the certificate are not "
+                    "corrected for {:.1f} K.",
+                    artefact, warmest_K));
+  }
+  const double um_per_m_K = std::abs(expansion_per_K.value_or(0.0)) * um_per_m_per_unit;
+  constexpr double negligible_um_per_m_K = 0.5;
+  if (unknown && um_per_m_K > negligible_um_per_m_K) {
+    warnings.push_back(fmt::format(
+        "The temperature of {} is not known: its lengths are compared with the certificate as if it were at "
+        "{:g} °C; with every kelvin they are {:.1f} µm/m off, beyond the stated uncertainty.",
+        artefact, reference_degC, um_per_m_K));
+  }
+  return warnings;
 }
 
 namespace {

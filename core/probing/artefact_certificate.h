@@ -31,6 +31,10 @@ struct ArtefactCertificate {
 
   /// A warning if something was taken as exact and lengths were corrected by `strain` for it; else empty.
   [[nodiscard]] std::string takenAsExact(const std::string& artefact, double strain) const;
+  /// Warnings about lengths that were compared with the certificate while the artefact had these temperatures (missing:
+  /// nothing tells it): not corrected, or taken as if it had the reference temperature.
+  [[nodiscard]] std::vector<std::string> notCorrected(const std::string& artefact,
+                                                      const std::vector<std::optional<double>>& temperature_degC) const;
 
   [[nodiscard]] static ArtefactCertificate of(const MachineDescription& machine, const Artefact& artefact);
 };

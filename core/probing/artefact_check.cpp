@@ -156,8 +156,8 @@ void checkBalls(const nlohmann::json& artefact, Checker& check) {
                             .number(ball.value("diameter_mm", nlohmann::json()), "The diameter of " + what, "balls",
                                     row, 1, 1e-3, 1000.0, "mm")
                             .value_or(0.0));
-    centres.push_back(
-        check.vector(ball.value("certified_mm", nlohmann::json()), "The certified place of " + what, "balls", row, 2));
+    centres.push_back(check.vector(ball.value("certified_mm", nlohmann::json()), "The calibrated position of " + what,
+                                   "balls", row, 2));
     if (!centres.back()) continue;
     if (i == 0 && std::hypot((*centres[0])[0], (*centres[0])[1], (*centres[0])[2]) > 1e-9) {
       check.add("balls", row, 2, "The first ball is the origin of the certificate; allowed: 0, 0, 0.");

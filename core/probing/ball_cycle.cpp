@@ -230,6 +230,11 @@ BallCycleResult evaluateBallCycles(const TouchList& list, const MachineDescripti
   if (std::string warning = unknownGrowth(artefact, certificate, log, result.cycle_time_s); !warning.empty())
     result.warnings.push_back(std::move(warning));
 
+  std::vector<std::optional<double>> temperature_degC;
+  for (const double time : result.cycle_time_s) temperature_degC.push_back(artefactTemperature(artefact, log, time));
+  for (std::string& warning : certificate.notCorrected(artefact.id, temperature_degC))
+    result.warnings.push_back(std::move(warning));
+
   // (13): distances against the certificate, with the artefact as warm as it is.
   const double certificate_um = artefact.certificate_uncertainty_um.value_or(0.0);
   std::map<std::pair<std::string, std::string>, std::vector<const ProbedFeature*>> of_cycle;

@@ -244,15 +244,14 @@ std::vector<CertifiedLengths> compareWithCertificate(const HoleCycleResult& resu
 /// What the lengths against the certificate rest on without an uncertainty, or were not corrected for.
 void warnOfCertificate(const Artefact& artefact, const ArtefactCertificate& certificate, HoleCycleResult& result) {
   double warmest_K = 0.0;
-  for (const CertifiedLengths& lengths : result.against_certificate)
+  std::vector<std::optional<double>> temperature_degC;
+  for (const CertifiedLengths& lengths : result.against_certificate) {
+    temperature_degC.push_back(lengths.temperature_degC);
     warmest_K = std::max(warmest_K, std::abs(lengths.temperature_degC.value_or(certificate.reference_degC) -
                                              certificate.reference_degC));
-  if (!certificate.expansion_per_K && warmest_K > 0.0) {
-    result.warnings.push_back(
-        fmt::format("The expansion coefficient of {} is not stated: its lengths against the certificate are not "
-                    "corrected for {:.1f} K.",
-                    artefact.id, warmest_K));
   }
+  for (std::string& warning : certificate.notCorrected(artefact.id, temperature_degC))
+    result.warnings.push_back(std::move(warning));
   if (std::string warning =
           certificate.takenAsExact(artefact.id, warmest_K * std::abs(certificate.expansion_per_K.value_or(0.0)));
       !warning.empty())

@@ -70,6 +70,8 @@ TEST(MachineDescription, NamesThePathOfWhatIsWrong) {
       {"/artefacts/0/expansion_um_per_m_K", 11500.0, "from -5 to 100"},
       {"/artefacts/0/expansion_um_per_m_K", 1.15e-5, "where steel has 11.5, not 1/K"},
       {"/artefacts/0/temperature_degC", 293.15, "from -20 to 80"},
+      {"/reference_temperature_degC", 293.15, "from 0 to 40"},
+      {"/reference_temperature_degC", 68, "from 0 to 40"},
       {"/styli/0/radius_mm", 0, "greater than zero"},
       {"/profiler/calibration_circle", {0, 0, 0, -1}, "r > 0"},
       {"/format", "other", "spindrift-machine"},

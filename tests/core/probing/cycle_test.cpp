@@ -12,7 +12,9 @@
 #include <map>
 
 #include "core/math/least_squares.h"
+#include "core/probing/artefact_certificate.h"
 #include "tests/core/probing/probing_machines.h"
+#include "tests/support/refusal.h"
 
 namespace spindrift {
 namespace {
@@ -679,6 +681,41 @@ TEST(HoleCycle, WhatTheLengthsRestOnWithoutUncertaintyIsSaid) {
                                   "temperature of bar: taken as exact, though lengths were corrected by up to 57.5 "
                                   "µm/m."));
   EXPECT_THAT(warningsOf(""), ::testing::Contains(::testing::HasSubstr("not corrected for 5.0 K")));
+}
+
+TEST(HoleCycle, LengthsAtATemperatureThatNobodyKnowsAreSaid) {
+  const MachineDescription m =
+      machineFrom(replaced(holeMachineText(), "\"hole_diameter_mm\":12",
+                           "\"hole_diameter_mm\":12,\"certificate_uncertainty_um\":0.5,\"expansion_um_per_m_K\":11.5"));
+  const VirtualRun run = runCycles(m, 2, {}, 2);
+  EXPECT_THAT(evaluateHoleCycles(run.list, m, m.artefacts.front(), {}, nullptr).warnings,
+              ::testing::Contains("The temperature of bar is not known: its lengths are compared with the certificate "
+                                  "as if it were at 20 °C; with every kelvin they are 11.5 µm/m off, beyond the stated "
+                                  "uncertainty."));
+}
+
+TEST(BallCycle, DistancesThatAreNotCorrectedForATemperatureAreSaid) {
+  const auto warningsOf = [](const std::string& keys) {
+    const MachineDescription m = machineFrom(replaced(ballMachineText(), "\"certificate_uncertainty_um\":0.4", keys));
+    const VirtualRun run = runCycles(m, 2, {}, 2);
+    return evaluateBallCycles(run.list, m, m.artefacts.front(), nullptr).warnings;
+  };
+  using ::testing::Contains;
+  using ::testing::HasSubstr;
+  EXPECT_THAT(warningsOf("\"temperature_degC\":26"), Contains(HasSubstr("not corrected for 6.0 K")));
+  EXPECT_THAT(warningsOf("\"expansion_um_per_m_K\":11.5"), Contains(HasSubstr("as if it were at 20 °C")));
+  EXPECT_THAT(warningsOf("\"certificate_uncertainty_um\":0.4"), ::testing::IsEmpty());
+}
+
+TEST(HoleCycle, UncertaintiesOfAnotherUnitAreRefused) {
+  const auto refusal = [](const std::string& key) {
+    const MachineDescription m =
+        machineFrom(replaced(holeMachineText(), "\"hole_diameter_mm\":12",
+                             "\"hole_diameter_mm\":12,\"expansion_um_per_m_K\":11.5,\"temperature_degC\":22," + key));
+    return testing::refusal([&] { (void)ArtefactCertificate::of(m, m.artefacts.front()); });
+  };
+  EXPECT_THAT(refusal("\"expansion_uncertainty_um_per_m_K\":6e-7"), ::testing::HasSubstr("not 1/K"));
+  EXPECT_THAT(refusal("\"temperature_uncertainty_K\":293"), ::testing::HasSubstr("from 0 to 20"));
 }
 
 TEST(HoleCycle, OneTemperatureForAllCyclesContradictsNoGrowth) {
