@@ -498,9 +498,21 @@ ProgramCheck checkProgram(std::string_view text, const MachineDescription& machi
                         options.clearance_mm));
     }
     if (touch) {
-      move.feature = static_cast<int>(word('A').value_or(0.0));
-      move.stylus = static_cast<int>(word('B').value_or(0.0));
+      move.feature = static_cast<int>(block.print('A').value_or(0.0));
+      move.stylus = static_cast<int>(block.print('B').value_or(0.0));
       ++check.touches;
+      constexpr double rounding_deg = 1e-3;
+      if (const auto c = block.print('C'); c && std::abs(std::remainder(*c - c_deg, 360.0)) > rounding_deg)
+        issue(fmt::format("the touch prints C{:g} while the table stands at {:g}", *c, c_deg));
+      const Eigen::Vector3d approach(block.print('I').value_or(0.0), block.print('J').value_or(0.0),
+                                     block.print('K').value_or(0.0));
+      constexpr double rounding = 1e-3;  // positions of 0.1 um over some millimetres, directions of three decimals
+      if (position && (target - *position).norm() > 0.0 &&
+          (approach - (target - *position).normalized()).norm() > 2.0 * rounding) {
+        const Eigen::Vector3d way = (target - *position).normalized();
+        issue(fmt::format("the touch prints the approach I{:g} J{:g} K{:g} but moves along {:.3f}, {:.3f}, {:.3f}",
+                          approach.x(), approach.y(), approach.z(), way.x(), way.y(), way.z()));
+      }
     }
     if (after_touch && move.kind != MoveKind::Retract) issue("there is no retract after a touch");
     if (move.kind == MoveKind::Retract && !after_touch) issue("a feed move that is not a retract after a touch");

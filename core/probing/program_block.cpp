@@ -52,16 +52,12 @@ bool readWords(std::string_view line, std::multimap<char, double>& words) {
   return true;
 }
 
-/// Takes comments in brackets out of a line; the last of them.
-std::string takeComments(std::string& line) {
-  std::string comment;
+/// Takes comments in brackets out of a line.
+void takeComments(std::string& line) {
   for (std::size_t open = line.find('('); open != std::string::npos; open = line.find('(')) {
     const std::size_t close = line.find(')', open);
-    const std::size_t length = close == std::string::npos ? std::string::npos : close - open + 1;
-    comment = line.substr(open + 1, length == std::string::npos ? std::string::npos : length - 2);
-    line.erase(open, length);
+    line.erase(open, close == std::string::npos ? std::string::npos : close - open + 1);
   }
-  return comment;
 }
 
 /// Takes `token` out of a line. False if it is not there.
@@ -100,15 +96,38 @@ void refuseOthers(ProgramBlock& block) {
   }
 }
 
+/// What a touch will print, from the line that writes it or from the parameters that are set for it.
+void labelled(std::multimap<char, double> label, ProgramBlock& block) {
+  for (const char letter : {'A', 'B', 'C', 'I', 'J', 'K'}) {
+    if (label.find(letter) != label.end()) continue;
+    block.issues.push_back(
+        fmt::format("the touch does not print its {}; allowed: A feature, B stylus, C angle, I J K approach", letter));
+  }
+  block.printed = std::move(label);
+}
+
+/// The line of a log "T A1 B1 C0 D1 X<where> ... <where> I0 J1 K0", taken apart at where the control puts the place.
+/// False if it cannot be read.
+bool readPrinted(std::string_view line, std::string_view place, std::string_view end,
+                 std::multimap<char, double>& label) {
+  const std::size_t begin = line.find("T A");
+  const std::size_t at = line.find(place);
+  if (begin == std::string_view::npos || at == std::string_view::npos || at < begin) return false;
+  const std::string_view behind = line.substr(at + place.size());
+  return readWords(line.substr(begin + 2, at - begin - 2), label) &&
+         readWords(behind.substr(0, behind.find(end)), label);
+}
+
 std::vector<ProgramBlock> readGCode(const std::vector<Line>& lines) {
   std::vector<ProgramBlock> blocks;
-  for (const Line& l : lines) {
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    const Line& l = lines[i];
     std::string line = l.text;
     if (line == "%" || line.front() == '#' || line.front() == 'O' || line.front() == 'o') continue;
     if (line.starts_with("POPEN") || line.starts_with("PCLOS") || line.starts_with("DPRNT")) continue;
     ProgramBlock block;
     block.line = l.number;
-    const std::string comment = takeComments(line);
+    takeComments(line);
     if (!readWords(line, block.words)) {
       block.issues.push_back(unreadable(line));
       blocks.push_back(std::move(block));
@@ -133,25 +152,20 @@ std::vector<ProgramBlock> readGCode(const std::vector<Line>& lines) {
     refuseOthers(block);
     const auto m = block.word('M');
     block.ends = m == 30.0 || m == 2.0;
-    if (block.touch && comment.starts_with("TOUCH ")) {
+    if (block.touch) {
+      // A macro prints what it is called with; LinuxCNC what the next line says.
       std::multimap<char, double> label;
-      if (readWords(std::string_view(comment).substr(6), label)) block.words.insert(label.begin(), label.end());
+      const std::string next = i + 1 < lines.size() ? lines[i + 1].text : std::string();
+      if (p) {
+        label = block.words;
+      } else if (next.starts_with("(LOG,") && !readPrinted(next, " X#5061 Y#5062 Z#5063 ", ")", label)) {
+        block.issues.push_back(unreadable(next));
+      }
+      labelled(std::move(label), block);
     }
     blocks.push_back(std::move(block));
   }
   return blocks;
-}
-
-/// What a touch will print, from its own WRITE or from the parameters that are set for it: A and B.
-void labelled(std::multimap<char, double> label, ProgramBlock& block) {
-  for (const char letter : {'A', 'B'}) {
-    const auto found = label.find(letter);
-    if (found == label.end()) {
-      block.issues.emplace_back("the touch does not print which feature and stylus it belongs to");
-      return;
-    }
-    block.words.emplace(letter, found->second);
-  }
 }
 
 std::vector<ProgramBlock> readSiemens(const std::vector<Line>& lines) {
@@ -199,10 +213,9 @@ std::vector<ProgramBlock> readSiemens(const std::vector<Line>& lines) {
         block.touch = true;
         std::multimap<char, double> label;
         for (std::size_t k = i + 2; k < lines.size() && k < i + 5; ++k) {
-          const std::size_t text = lines[k].text.find("\"T A");
-          if (!lines[k].text.starts_with("WRITE(") || text == std::string::npos) continue;
-          const std::size_t end = lines[k].text.find(" X\"<<$AA_MM[X]<<\" Y\"<<$AA_MM[Y]<<\" Z\"<<$AA_MM[Z]", text);
-          if (end == std::string::npos || !readWords(lines[k].text.substr(text + 2, end - text - 2), label))
+          if (!lines[k].text.starts_with("WRITE(")) continue;
+          if (!readPrinted(lines[k].text, " X\"<<$AA_MM[X]<<\" Y\"<<$AA_MM[Y]<<\" Z\"<<$AA_MM[Z]<<\" ", " S\"<<",
+                           label))
             block.issues.push_back(unreadable(lines[k].text));
           break;
         }
@@ -283,10 +296,13 @@ std::vector<ProgramBlock> readHeidenhain(const std::vector<Line>& lines) {
       }
       std::multimap<char, double> label;
       for (std::size_t k = i + 1; k < lines.size() && bare(k).starts_with("FN "); ++k) {
-        for (const auto& [name, letter] : {std::pair{"FN 0: Q11 = ", 'A'}, std::pair{"FN 0: Q12 = ", 'B'}}) {
+        // Of TOUCH.A; Q14 numbers the touches.
+        constexpr std::string_view letters = "ABCDIJK";
+        for (std::size_t n = 0; n < letters.size(); ++n) {
+          const char letter = letters[n];
           std::string set = bare(k);
           double value = 0.0;
-          if (!take(set, name)) continue;
+          if (!take(set, fmt::format("FN 0: Q{} = ", 11 + n))) continue;
           if (set.starts_with('+')) set.erase(0, 1);
           if (parseNumber(set, value)) label.emplace(letter, value);
         }

@@ -13,7 +13,7 @@
 namespace spindrift {
 
 /// What one block commands, whatever the language. Words: X Y Z and the rotary letter are positions in machine
-/// coordinates (mm, deg as the control counts); of a touch A feature, B stylus (from 1).
+/// coordinates (mm, deg as the control counts).
 struct ProgramBlock {
   int line = 0;
   std::multimap<char, double> words;
@@ -25,9 +25,16 @@ struct ProgramBlock {
   int motion = -1;           ///< 0 rapid, 1 feed; -1: as before
   /// Of a touch that is given by a direction and a distance: where it ends is the position before plus this.
   std::optional<std::array<double, 3>> towards_mm;
+  /// What the control will print of a touch beside where it was: A feature and B stylus (from 1), C angle of the table,
+  /// I J K approach.
+  std::multimap<char, double> printed;
   std::vector<std::string> issues;
 
-  [[nodiscard]] std::optional<double> word(char letter) const {
+  [[nodiscard]] std::optional<double> word(char letter) const { return among(words, letter); }
+  [[nodiscard]] std::optional<double> print(char letter) const { return among(printed, letter); }
+
+ private:
+  [[nodiscard]] static std::optional<double> among(const std::multimap<char, double>& words, char letter) {
     const auto found = words.find(letter);
     return found == words.end() ? std::nullopt : std::optional(found->second);
   }

@@ -122,6 +122,10 @@ TEST(CycleProgram, TheDialectsSayTheSame) {
       if (dialect == ProgramDialect::Siemens) {
         EXPECT_TRUE(bad("IF $AC_MEA[1]==0 GOTOF _SPD_MISSED\n", "")) << "nobody asks for the contact";
         EXPECT_TRUE(bad("T A1 B1", "T A2 B1")) << "another feature than the one that is touched";
+        if (holes) {
+          EXPECT_TRUE(bad(" C90 ", " C0 ")) << "another angle than that of the table";
+        }
+        EXPECT_TRUE(bad("\" I1 J0 K0 S", "\" I-1 J0 K0 S")) << "the other side";
         EXPECT_TRUE(bad("$AA_MM[X]", "$AA_MW[X]")) << "not machine coordinates";
         EXPECT_TRUE(bad("SUPA G0", "G0")) << "not machine coordinates";
         EXPECT_TRUE(bad("G710", "G700")) << "inches";
@@ -129,12 +133,35 @@ TEST(CycleProgram, TheDialectsSayTheSame) {
       } else {
         EXPECT_TRUE(bad("FN 9: IF +Q4 EQU -1 GOTO LBL 99", "FN 0: Q5 = +1")) << "nobody asks for the contact";
         EXPECT_TRUE(bad("FN 0: Q11 = +1\n", "FN 0: Q11 = +2\n")) << "another feature than the one that is touched";
+        if (holes) {
+          EXPECT_TRUE(bad("FN 0: Q13 = +90\n", "FN 0: Q13 = +0\n")) << "another angle than that of the table";
+        }
+        EXPECT_TRUE(bad("FN 0: Q15 = +1\n", "FN 0: Q15 = -1\n")) << "the other side";
         EXPECT_TRUE(bad("REFERENCE SYSTEM:1", "REFERENCE SYSTEM:0")) << "not machine coordinates";
         EXPECT_TRUE(bad(" FMAX M91", " FMAX")) << "not machine coordinates";
         EXPECT_TRUE(bad(" M91 M141", " M91")) << "no retract";
         EXPECT_TRUE(bad("BEGIN PGM SPINDRIFT MM", "BEGIN PGM SPINDRIFT INCH")) << "inches";
       }
     }
+  }
+}
+
+/// What the control prints is what the evaluation believes.
+TEST(CycleProgram, WhatIsPrintedIsWhatIsDone) {
+  for (const ProgramDialect dialect : {ProgramDialect::Fanuc, ProgramDialect::Generic}) {
+    const Written w = write(true, dialect);
+    const bool logged = dialect == ProgramDialect::Generic;
+    const auto bad = [&](const std::string& from, const std::string& to) {
+      return !checkProgram(withReplaced(w.text, from, to), w.machine, w.machine.artefacts.front(), w.check_options)
+                  .good();
+    };
+    EXPECT_TRUE(bad(logged ? " Z#5063 I1 J0 K0" : " I1 J0 K0", logged ? " Z#5063 I-1 J0 K0" : " I-1 J0 K0"))
+        << "the other side";
+    EXPECT_TRUE(logged ? bad("(LOG,T A1 B1 C90 ", "(LOG,T A1 B1 C0 ") : bad(" C90 D", " C0 D"))
+        << "another angle than that of the table";
+    if (!logged) continue;
+    EXPECT_TRUE(bad("(LOG,T A1 ", "(LOG,T A2 ")) << "another feature";
+    EXPECT_TRUE(bad("X#5061 Y#5062", "X#5061 Y#5061")) << "another place";
   }
 }
 
