@@ -232,8 +232,13 @@ std::string linuxcncCompensation(const ErrorModel& model, const MachineDescripti
   return text;
 }
 
+std::string MeasuredBox::extentAlong(int axis) const {
+  return fmt::format("measured from {:g} to {:g} mm; beyond that extrapolated", low_mm[axis], high_mm[axis]);
+}
+
 std::string siemensCompensation(const ErrorModel& model, const MachineDescription& machine, const std::string& axis,
-                                const Eigen::Vector3d& reference_mm, int count, const DeviationQuery& conditions) {
+                                const Eigen::Vector3d& reference_mm, int count, const DeviationQuery& conditions,
+                                const std::optional<MeasuredBox>& measured) {
   const int number = axisNumber(machine, axis);
   requireCount(count, 5000);
   const LinearAxis& description = *machine.findAxis(axis);
@@ -260,8 +265,9 @@ std::string siemensCompensation(const ErrorModel& model, const MachineDescriptio
       "; value = deviation (actual minus commanded) in mm, zero at {:g} mm: a positive value moves the axis in the\n"
       "; negative direction. {} is the name of the machine axis. MD38000 must be at least {}; active with MD32700 = "
       "1.\n"
-      "CHANDATA(1)\n",
-      name, reference_mm[number], name, count);
+      "{}CHANDATA(1)\n",
+      name, reference_mm[number], name, count,
+      measured ? fmt::format("; {} {}\n", axis, measured->extentAlong(number)) : "");
   for (int i = 0; i < count; ++i) {
     const double value = deviation_mm(positionAt(description, i, count)) - reference;
     text += fmt::format("$AA_ENC_COMP[0,{},{}]={:.6f}\n", i, name, std::abs(value) < 5e-7 ? 0.0 : value);

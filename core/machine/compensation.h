@@ -51,6 +51,9 @@ struct MeasuredBox {
     return ((position_mm - low_mm).array() >= -slack_mm).all() && ((high_mm - position_mm).array() >= -slack_mm).all();
   }
   [[nodiscard]] bool extendsAlong(int axis) const noexcept { return high_mm[axis] - low_mm[axis] >= least_extent_mm; }
+  /// "measured from 0 to 400 mm; beyond that extrapolated", for the head of a file: what a control does with it does
+  /// not know the page that it came from.
+  [[nodiscard]] std::string extentAlong(int axis) const;
 };
 
 struct CompensationNode {
@@ -115,6 +118,7 @@ enum class LinuxcncTable {
 /// place of a table that the control already has: its values have to be added.
 [[nodiscard]] std::string siemensCompensation(const ErrorModel& model, const MachineDescription& machine,
                                               const std::string& axis, const Eigen::Vector3d& reference_mm, int count,
-                                              const DeviationQuery& conditions);
+                                              const DeviationQuery& conditions,
+                                              const std::optional<MeasuredBox>& measured = {});
 
 }  // namespace spindrift

@@ -146,6 +146,7 @@ std::string siemensSagCompensation(const std::vector<AxisComponentTable>& tables
   constexpr std::size_t most_points = 200;  // of a table of an 828D, which cannot be extended (K3 03/2013, p. 264)
   std::string body;
   std::string relations;
+  std::map<std::string, std::string> extents;  // of the base axes
   int index = 0;
   std::size_t points = 0;
   for (const AxisComponentTable& table : tables) {
@@ -155,11 +156,16 @@ std::string siemensSagCompensation(const std::vector<AxisComponentTable>& tables
       if (of == numberOf(table) || !known[of] || !movesSomething(table, of)) continue;
       body += sagTable(table, of, index);
       relations += fmt::format("{}[{}] {}=F({})", index == 0 ? "" : ", ", index, axes[of], table.axis);
+      if (measured)
+        extents[table.axis] =
+            fmt::format("; {} {}\n", table.axis, measured->extentAlong(static_cast<int>(numberOf(table))));
       points = std::max(points, table.position_mm.size());
       ++index;
     }
   }
   if (index == 0) return {};
+  std::string extent;
+  for (const auto& [axis, line] : extents) extent += line;
   return fmt::format(
              "%_N_NC_CEC_INI\n"
              "; {}\n"
@@ -170,8 +176,8 @@ std::string siemensSagCompensation(const std::vector<AxisComponentTable>& tables
              "; MD32710 = 1 of the compensation axes and SD41300 = 1 of the tables. Values stand in place of those "
              "that\n"
              "; the control has. Check one of them with one move before the tables are used.\n"
-             "CHANDATA(1)\n",
-             relations, points) +
+             "{}CHANDATA(1)\n",
+             relations, points, extent) +
          body + "M17\n";
 }
 
@@ -240,8 +246,9 @@ std::string heidenhainCompensation(const AxisComponentTable& table, const std::o
       "too\n"
       "# far (HEIDENHAIN Technical Manual TNC 407/415/425, 1.6.3 and 1.6.4). Check one value with one move before the\n"
       "# table is used; datum {1:g} mm, distance {2:g} mm, {3} points\n"
-      "AXISPOS_mm",
-      table.axis, table.position_mm.front(), distance_mm, table.position_mm.size());
+      "{4}AXISPOS_mm",
+      table.axis, table.position_mm.front(), distance_mm, table.position_mm.size(),
+      measured ? fmt::format("# {} {}\n", table.axis, measured->extentAlong(static_cast<int>(numberOf(table)))) : "");
   text += header + '\n';
   for (std::size_t row = 0; row < table.position_mm.size(); ++row) {
     text += fmt::format("{:.6f}", table.position_mm[row]);
@@ -290,7 +297,7 @@ std::vector<double> FanucPoints::position_mm() const {
 }
 
 std::string fanucPitchError(const AxisComponentTable& table, const FanucPoints& points, FanucStep step,
-                            double detection_unit_um) {
+                            double detection_unit_um, const std::optional<MeasuredBox>& measured) {
   constexpr int most_numbers = 1023;
   const std::size_t axis = numberOf(table);
   if (!(detection_unit_um > 0.0) || !std::isfinite(detection_unit_um)) {
@@ -319,6 +326,12 @@ std::string fanucPitchError(const AxisComponentTable& table, const FanucPoints& 
     largest = std::max(largest, std::abs(value));
     data += fmt::format("N{} R{}\n", 10000 + points.first + static_cast<int>(row) - 1, value);
   }
+  std::string extent;  // controls read capitals and no semicolon, which ends a block
+  if (measured) {
+    extent = fmt::format("({} MEASURED FROM {:g} TO {:g} MM, BEYOND THAT EXTRAPOLATED)\n", table.axis,
+                         measured->low_mm[static_cast<Eigen::Index>(axis)],
+                         measured->high_mm[static_cast<Eigen::Index>(axis)]);
+  }
   return fmt::format(
              "%\n"
              "O{0}(PITCH ERROR DATA OF {1})\n"
@@ -333,9 +346,9 @@ std::string fanucPitchError(const AxisComponentTable& table, const FanucPoints& 
              "(STEPS FROM ONE POINT TO THE NEXT, LARGEST {8}: SOME CONTROLS TAKE -7 TO 7 ONLY)\n"
              "(THESE VALUES STAND IN PLACE OF THOSE IN THE CONTROL. SAVE THOSE FIRST, AND ADD THEM WHERE THEY ARE TO "
              "HOLD)\n"
-             "G10 L50\n",
+             "{9}G10 L50\n",
              8911 + axis, table.axis, points.reference, points.first, points.last, points.interval_mm,
-             detection_unit_um, step == FanucStep::Positive ? "PLUS" : "MINUS", largest) +
+             detection_unit_um, step == FanucStep::Positive ? "PLUS" : "MINUS", largest, extent) +
          data + "G11\nM30\n%\n";
 }
 

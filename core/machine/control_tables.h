@@ -74,7 +74,7 @@ struct FanucPoints {
 /// G10 L50 program of the positioning deviation. `table` holds it at `points.position_mm()`. Throws InputError: a step
 /// outside -128 to 127 detection units, a number above 1023, a unit that is not above zero.
 [[nodiscard]] std::string fanucPitchError(const AxisComponentTable& table, const FanucPoints& points, FanucStep step,
-                                          double detection_unit_um);
+                                          double detection_unit_um, const std::optional<MeasuredBox>& measured = {});
 [[nodiscard]] ControlTable readFanucPitchError(const std::string& text, const std::string& file);
 
 }  // namespace spindrift

@@ -486,7 +486,7 @@ void makeControlTables(const MachineDescription& machine, const PreparedModel& p
         [&] {
           const AxisComponentTable ends = axisComponentsAt(*prepared.everywhere, machine, table.axis, plan.reference_mm,
                                                            points.position_mm(), prepared.conditions);
-          std::string text = fanucPitchError(ends, points, *request.fanuc_step, request.fanuc_unit_um);
+          std::string text = fanucPitchError(ends, points, *request.fanuc_step, request.fanuc_unit_um, measured);
           requireSameEverywhere({readFanucPitchError(text, "fanuc_pitch.nc")}, {ends},
                                 1.001 * request.fanuc_unit_um * mm_per_um);
           return text;
@@ -583,7 +583,8 @@ void makeFiles(const MachineDescription& machine, const PreparedModel& prepared,
                      "moves the axis in the negative direction. Add the values of a table that the control has. "
                      "Measured from {:g} to {:g} mm; beyond that it is extrapolated.",
                      relative, measured.low_mm[axis[0] - 'X'], measured.high_mm[axis[0] - 'X']),
-         siemensCompensation(model, machine, axis, plan.reference_mm, request.positions, prepared.conditions)});
+         siemensCompensation(model, machine, axis, plan.reference_mm, request.positions, prepared.conditions,
+                             measured)});
   }
   makeControlTables(machine, prepared, request, components, measured, relative, plan);
 }

@@ -166,6 +166,25 @@ TEST(ControlTables, FanucStepsCancelTheExpansionWhicheverWayTheyCount) {
   }
 }
 
+/// The page that says how far was measured stays at the desk; the file goes to the machine.
+TEST(ControlTables, EveryFileSaysHowFarWasMeasured) {
+  MeasuredBox measured;
+  measured.low_mm = {-20.0, 10.0, 0.0};
+  measured.high_mm = {60.0, 210.0, 5.0};
+  const FanucPoints points = FanucPoints::over(*knownMill().findAxis("X"), 9, 0);
+  const std::string fanuc = fanucPitchError(pitchOf(points), points, FanucStep::Positive, 1.0, measured);
+  EXPECT_THAT(fanuc, HasSubstr("(X MEASURED FROM -20 TO 60 MM, BEYOND THAT EXTRAPOLATED)\n"));
+  EXPECT_EQ(readFanucPitchError(fanuc, "fanuc_X.nc").movement_mm,
+            readFanucPitchError(fanucPitchError(pitchOf(points), points, FanucStep::Positive, 1.0), "f").movement_mm);
+  EXPECT_THAT(siemensCompensation(KnownMachine(), knownMill(), "Y", reference_mm, 5, {}, measured),
+              HasSubstr("; Y measured from 10 to 210 mm; beyond that extrapolated\nCHANDATA(1)\n"));
+  const AxisComponentTable over_y = tableOf("Y", 5);
+  EXPECT_THAT(siemensSagCompensation({over_y}, measured),
+              HasSubstr("; Y measured from 10 to 210 mm; beyond that extrapolated\nCHANDATA(1)\n"));
+  EXPECT_THAT(heidenhainCompensation(over_y, measured),
+              HasSubstr("# Y measured from 10 to 210 mm; beyond that extrapolated\nAXISPOS_mm"));
+}
+
 TEST(ControlTables, FanucRoundingDoesNotAddUp) {
   LinearAxis axis = *knownMill().findAxis("X");
   const FanucPoints points = FanucPoints::over(axis, 51, 0);  // 3.2 mm, 0.32 um each
