@@ -165,7 +165,6 @@ std::array<AxisErrorSurface, 6> axisErrorSurfaces(const std::vector<AxisErrorSam
   std::array<AxisErrorSurface, 6> out;
   for (const Component k : all_components) {
     AxisErrorSurface& s = out[static_cast<std::size_t>(k)];
-    s.name = std::string(toString(k)) + "Y";
     s.unit = std::string(unitOf(k));
     s.positions_mm = columns;
     s.times_s = rows;

@@ -80,14 +80,13 @@ struct AxisErrorSample {
 };
 /// A component over position (columns) and time (rows), um or urad; NaN where there is no sample.
 struct AxisErrorSurface {
-  std::string name;  ///< "EXY", ...
   std::string unit;
   std::vector<double> positions_mm;
   std::vector<double> times_s;
   std::vector<double> values;  ///< row major: time, position
   std::vector<double> sigmas;
 };
-/// Scans of one cycle share a row: times closer than `cycle_s` belong together (time of the first).
+/// Of every component; scans of one cycle share a row: times closer than `cycle_s` belong together (time of the first).
 [[nodiscard]] std::array<AxisErrorSurface, 6> axisErrorSurfaces(const std::vector<AxisErrorSample>& samples,
                                                                 double cycle_s);
 

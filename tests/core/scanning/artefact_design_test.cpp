@@ -168,7 +168,7 @@ TEST(AxisErrorSurfaces, SortsSamplesByCycleAndPositionAndLeavesGaps) {
       samples.push_back(s);
     }
   const auto surfaces = axisErrorSurfaces(samples, 120.0);
-  EXPECT_EQ(surfaces[0].name, "EXY");
+  EXPECT_EQ(surfaces[0].unit, "um");
   EXPECT_EQ(surfaces[5].unit, "urad");
   ASSERT_EQ(surfaces[0].times_s.size(), 3U);
   ASSERT_EQ(surfaces[0].positions_mm, (std::vector<double>{250.0, 500.0, 750.0, 1000.0}));

@@ -78,9 +78,9 @@ AxisErrorsPage::AxisErrorsPage(PageContext page_context, QWidget* parent)
   addModelSwitch(true);
   addAction(fit_);
   auto* choices = new QHBoxLayout;
-  component_ = new Segments({QStringLiteral("EXY"), QStringLiteral("EYY"), QStringLiteral("EZY"), QStringLiteral("EAY"),
-                             QStringLiteral("EBY"), QStringLiteral("ECY")},
-                            tr("Error of the axis"));
+  QStringList components;
+  for (const Component c : all_components) components << QString::fromUtf8(toString(c));
+  component_ = new Segments(components, tr("Error of the axis"));
   model_ = new Segments({tr("Rigid"), tr("Push broom")}, tr("Scan model"));
   model_->button(0)->setToolTip(tr("The cloud moves as one body"));
   model_->button(1)->setToolTip(tr("Every profile is taken at its own position of the carriage"));
@@ -94,7 +94,7 @@ AxisErrorsPage::AxisErrorsPage(PageContext page_context, QWidget* parent)
   over_ = new Segments({tr("Over time"), tr("Over position")}, tr("Horizontal axis"));
   left->addToTitle(over_);
   series_ = new PlotGrid;
-  series_->setAxes(tr("Time / min"), tr("EXY / µm"));
+  series_->setAxes(tr("Time / min"), tr("Error / µm"));
   series_->setEmptyText(tr("Errors of the axis will appear here"),
                         tr("Find the six errors: each is drawn over time with its uncertainty."));
   left->body()->addWidget(series_, 1);
@@ -135,6 +135,15 @@ void AxisErrorsPage::chooseModel(int index) {
     options_.change(tr("choose the scan model"), [&](ScanModelChoice& o) { o.model = model; });
 }
 
+void AxisErrorsPage::nameErrors(const std::string& axis) {
+  for (const Component c : all_components) {
+    const QString name = QString::fromUtf8(toString(c)) + QString::fromStdString(axis);
+    QPushButton* button = component_->button(static_cast<int>(c));
+    button->setText(name);
+    button->setAccessibleName(tr("Error of the axis") + QStringLiteral(": ") + name);
+  }
+}
+
 void AxisErrorsPage::setComponent(int index) {
   component_->setCurrent(index);
   if (evaluation_ != nullptr) show(*evaluation_);
@@ -153,6 +162,8 @@ void AxisErrorsPage::refresh() {
     evaluation_ = nullptr;
     clear();
   }
+  const auto& profiler = session().campaign()->machine.profiler;
+  nameErrors(profiler ? profiler->axis : ProfilerDescription{}.axis);
   model_->setCurrent(chosenModel() == models[1] ? 1 : 0);
   const bool evaluated = session().state("evaluate").there;
   fit_->setEnabled(evaluated && canRun("fit"));
@@ -192,6 +203,7 @@ void AxisErrorsPage::refresh() {
 }
 
 void AxisErrorsPage::show(const ScanEvaluation& evaluation) {
+  nameErrors(evaluation.axis);
   const int c = component_->current();
   const QString name = component_->button(c)->text();
   double last = 0;

@@ -37,12 +37,15 @@ class AxisErrorsPage : public Page {
   [[nodiscard]] SurfacePlot* surface() const { return surface_; }
   /// 0 ... 5: EX, EY, EZ, EA, EB, EC of the axis.
   void setComponent(int index);
+  [[nodiscard]] Segments* component() const { return component_; }
   [[nodiscard]] Segments* scanModel() const { return model_; }
 
  private:
   [[nodiscard]] std::string chosenModel() const;
   void chooseModel(int index);
   void clear();
+  /// The errors by the axis that carries the profiler (ISO 230-1: EX of the axis Z is EXZ).
+  void nameErrors(const std::string& axis);
   void show(const ScanEvaluation& evaluation);
   void showValues(const ScanEvaluation& evaluation);
   void showObservability(const ScanEvaluation& evaluation);

@@ -4,6 +4,8 @@
 #include <QComboBox>
 #include <QMouseEvent>
 #include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
 
 #include "core/base/atomic_file.h"
 #include "core/scanning/cloud_file.h"
@@ -32,7 +34,7 @@ constexpr const char* bad_scan = "captures/clouds/A2_C2.pcd";
 class ScanningPages : public PageTest {
  protected:
   /// Two artefacts in three cycles. `spoil` cuts a third off the last scan, with a correct header.
-  void openScans(const std::string& model, bool spoil) {
+  void openScans(const std::string& model, bool spoil, const std::string& axis = "Y") {
     VirtualScanCampaign c;
     c.mounting.scan_model = model;
     c.mounting.alpha_rad = 0.003;
@@ -68,6 +70,12 @@ class ScanningPages : public PageTest {
       cloud.points_mm.resize(cloud.profile_start[profiles]);
       cloud.profile_start.resize(profiles + 1);
       writeCloud(cloud, folder / bad_scan);
+    }
+    if (axis != "Y") {
+      const std::filesystem::path file = folder / "machine.json";
+      nlohmann::json machine = nlohmann::json::parse(std::ifstream(file));
+      machine["profiler"]["axis"] = axis;
+      writeFileAtomically(file, machine.dump(1));
     }
     open(folder);
   }
@@ -343,6 +351,23 @@ TEST_F(ScanningPages, ModelShowsTheSixErrorsUnderEitherScanModel) {
   window_->undoStack().undo();
   ASSERT_TRUE(waitForJobs(*window_, 60));
   EXPECT_EQ(window_->session().result("fit")->payload.at("scan_model"), "push_broom");
+}
+
+TEST_F(ScanningPages, TheErrorsAreNamedByTheAxisThatCarriesTheProfiler) {
+  openScans("push_broom", false, "X");
+  auto* page = go<AxisErrorsPage>(StepId::Model);
+  ASSERT_NE(page, nullptr);
+  EXPECT_EQ(page->component()->button(2)->text(), "EZX");
+  EXPECT_EQ(page->component()->button(2)->accessibleName().section(QLatin1Char(' '), -1), "EZX");
+  go<ProfilerCalibrationPage>(StepId::Calibrate);
+  press();
+  go<AxisErrorsPage>(StepId::Model);
+  press();
+  page->setComponent(2);
+  const nlohmann::json& stored = window_->session().result("fit")->payload;
+  EXPECT_NE(stored.dump().find("EZX_um"), std::string::npos) << "the file says the same";
+  EXPECT_TRUE(page->surface()->data().value_title.startsWith(QStringLiteral("EZX"))) << "and so does the surface";
+  EXPECT_GE(page->observability()->rowOf(QStringLiteral("ECX")), 0);
 }
 
 }  // namespace
