@@ -86,6 +86,7 @@ void warnAboutLog(const DiscrepancyInput& input, const DriverTable& drivers, dou
     }
     return;
   }
+  if (std::string doubt = input.log->doubtOfTemperatureUnit(); !doubt.empty()) warnings.push_back(std::move(doubt));
   for (const std::string& name : drivers.dead()) {
     if (OperatingLog::isTemperature(name)) {
       warnings.push_back(fmt::format("The sensor {} never moves; it is left out as dead.", name));
@@ -124,7 +125,7 @@ void warnAboutLoneStates(const DiscrepancyInput& input, const std::vector<std::s
   if (lone.empty() || 2 * lone.size() > points.size()) return;
   const bool one = lone.size() == 1;
   warnings.push_back(fmt::format(
-      "{} {} read at one point only: whether the state was shifted or the point moved cannot be told there.",
+      "{} {} read at one point only: whether the state was shifted or the point moved cannot be distinguished there.",
       shortenedList(lone, 5, 3), one ? "was" : "were"));
 }
 

@@ -6,10 +6,12 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <utility>
 
 #include "core/base/text.h"
+#include "core/math/statistics.h"
 
 namespace spindrift {
 namespace {
@@ -72,7 +74,26 @@ void take(LogColumn& column, const CsvRows& rows, std::size_t index, bool nan_is
   column.values.push_back(value);
 }
 
+std::vector<double> present(std::span<const double> values) {
+  std::vector<double> out;
+  std::copy_if(values.begin(), values.end(), std::back_inserter(out), [](double v) { return std::isfinite(v); });
+  return out;
+}
+
 }  // namespace
+
+std::optional<double> medianOfKelvin(std::span<const double> values) {
+  std::vector<double> known = present(values);
+  if (known.empty()) return std::nullopt;
+  const double middle = median(std::move(known));
+  return middle > 250.0 && middle < 400.0 ? std::optional(middle) : std::nullopt;
+}
+
+bool mayBeFahrenheit(std::span<const double> values) {
+  std::vector<double> known = present(values);
+  if (known.empty()) return true;
+  return *std::min_element(known.begin(), known.end()) >= 50.0 && median(std::move(known)) <= 130.0;
+}
 
 bool saysMissing(std::string_view field) {
   std::string lower(field);

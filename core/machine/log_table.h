@@ -51,6 +51,12 @@ struct LogTable {
                                      bool nan_is_missing = false);
 };
 
+/// What speaks against a column of temperatures that says degC: its median is one that a workshop has in kelvin only.
+/// Empty: nothing; else that median.
+[[nodiscard]] std::optional<double> medianOfKelvin(std::span<const double> values);
+/// True if none of the values is ever so cold as a workshop is in degC, and they may be one in degrees Fahrenheit.
+[[nodiscard]] bool mayBeFahrenheit(std::span<const double> values);
+
 /// True for "nan", "NA", "n/a": what other programs write for a missing value.
 [[nodiscard]] bool saysMissing(std::string_view field);
 

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <limits>
 #include <utility>
@@ -21,6 +22,15 @@ bool hasMeaning(std::string_view name) {
   return OperatingLog::isTemperature(name) || name == "spindle_rpm" || name.starts_with("feed_") ||
          name.starts_with("pos_") || name.starts_with("speed_") || name == "coolant" || name == "instrument_on" ||
          name == "compensation_on";
+}
+
+void refuseKelvin(const std::filesystem::path& file, const LogColumn& column) {
+  const std::optional<double> middle = medianOfKelvin(column.values);
+  if (!middle) return;
+  throw InputError({file, fmt::format("column {}", column.name)},
+                   fmt::format("its median is {:.1f}, which looks like kelvin although the name says degC; allowed: "
+                               "temperatures in °C.",
+                               *middle));
 }
 
 }  // namespace
@@ -48,21 +58,41 @@ OperatingLog OperatingLog::read(const std::filesystem::path& file) {
   for (LogColumn& column : table.columns) {
     if (column.words_at && hasMeaning(column.name)) throw notANumber(*column.words_at, column.words);
     if (column.values.empty()) continue;  // most fields are words, such as remarks
+    if (isTemperature(column.name)) refuseKelvin(file, column);
     log.setSignal(column.name, std::move(column.values));
   }
   return log;
 }
 
-std::vector<std::string> OperatingLog::columnsLeftOut(const std::filesystem::path& file) {
+std::vector<std::string> OperatingLog::remarks(const std::filesystem::path& file) {
   CsvRows rows(file);
   std::vector<std::string> sentences;
-  for (const LogColumn& column : LogTable::read(rows, time_names).columns) {
+  const LogTable table = LogTable::read(rows, time_names);
+  if (table.repeated > 0) {
+    sentences.push_back(fmt::format("The log repeats the time of the row before {}; the last row of one time holds.",
+                                    table.repeated == 1 ? "once" : fmt::format("{} times", table.repeated)));
+  }
+  for (const LogColumn& column : table.columns) {
     if (!column.values.empty()) continue;
     sentences.push_back(fmt::format(
         "The column {} of the log was left out: \"{}\" in line {} and {} more of its fields are no numbers.",
         column.name, column.words, column.words_at->line, column.word_count - 1));
   }
   return sentences;
+}
+
+std::string OperatingLog::doubtOfTemperatureUnit() const {
+  std::vector<std::string> names = temperatureNames();
+  std::erase_if(names, [this](const std::string& name) { return !std::isfinite(signal(name)->front()); });
+  const bool hot = !names.empty() && std::all_of(names.begin(), names.end(), [this](const std::string& name) {
+    return mayBeFahrenheit(*signal(name));
+  });
+  if (!hot) return {};
+  return fmt::format(
+      "No temperature of the log is ever below 50 °C ({} begins at {:.1f}): they look like degrees Fahrenheit, "
+      "although "
+      "their names say degC.",
+      names.front(), signal(names.front())->front());
 }
 
 void OperatingLog::moveClock(double offset_s) {

@@ -17,7 +17,7 @@ namespace spindrift {
 
 class OperatingLog {
  public:
-  /// Throws InputError: no `time_s`, a non-number, time that runs backwards, no rows.
+  /// Throws InputError: no `time_s`, a non-number, time that runs backwards, no rows, a temperature in kelvin.
   [[nodiscard]] static OperatingLog read(const std::filesystem::path& file);
 
   OperatingLog() = default;
@@ -39,8 +39,11 @@ class OperatingLog {
   [[nodiscard]] static bool isTemperature(std::string_view name) noexcept;
   /// Names of all temperatures.
   [[nodiscard]] std::vector<std::string> temperatureNames() const;
-  /// Sentences about columns of a log that `read` leaves out, as most of their fields are words. Throws as `read`.
-  [[nodiscard]] static std::vector<std::string> columnsLeftOut(const std::filesystem::path& file);
+  /// Sentences about what `read` leaves out, columns most of whose fields are words, and about rows that repeat a time.
+  /// Throws as `read`.
+  [[nodiscard]] static std::vector<std::string> remarks(const std::filesystem::path& file);
+  /// A sentence if all temperatures look like degrees Fahrenheit; else empty.
+  [[nodiscard]] std::string doubtOfTemperatureUnit() const;
   [[nodiscard]] bool empty() const noexcept { return time_s_.empty(); }
 
  private:

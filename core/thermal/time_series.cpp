@@ -68,17 +68,15 @@ void settleTemperatureUnits(TimeSeries& series, const TimeSeriesOptions& options
   }
   bool all_hot = !undeclared.empty();
   for (const Signal* signal : undeclared) {
-    const std::vector<double> values = present(signal->values);
-    if (values.empty()) continue;
-    const double middle = median(values);
-    if (middle > 250.0 && middle < 400.0) {
+    const std::optional<double> kelvin = medianOfKelvin(signal->values);
+    if (kelvin) {
       throw InputError(
           {series.file, fmt::format("column {}", signal->name)},
           fmt::format("its median is {:.1f}, which looks like kelvin although the name says degC; allowed: "
                       "degC, or rename the column to end in _K, or give --temperature-unit K.",
-                      middle));
+                      *kelvin));
     }
-    if (*std::min_element(values.begin(), values.end()) < 50.0 || middle > 130.0) all_hot = false;
+    if (!mayBeFahrenheit(signal->values)) all_hot = false;
   }
   if (all_hot) {
     throw InputError({series.file, fmt::format("column {}", undeclared.front()->name)},

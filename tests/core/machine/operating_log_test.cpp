@@ -12,6 +12,7 @@
 
 #include "core/base/csv.h"
 #include "core/base/error.h"
+#include "tests/support/refusal.h"
 #include "tests/support/temp_folder.h"
 
 namespace spindrift {
@@ -59,7 +60,7 @@ TEST(OperatingLog, AWordAmongNumbersIsAValueThatIsNotKnown) {
   EXPECT_THAT(*log.signal("flow"), ElementsAre(4, 4, 4, 6));
   EXPECT_THAT(*log.signal("load"), ElementsAre(1, 1, 3, 4));
   EXPECT_THAT(*log.signal("power"), ElementsAre(9, 9, 8, 7));
-  EXPECT_THAT(OperatingLog::columnsLeftOut(file),
+  EXPECT_THAT(OperatingLog::remarks(file),
               ElementsAre("The column state of the log was left out: \"on\" in line 2 and 1 more of its fields are no "
                           "numbers."));
 }
@@ -79,6 +80,28 @@ TEST(OperatingLog, BadInputIsNamed) {
   EXPECT_THAT(complaint("time_s,T_a_degC\n0,nan\n"), ::testing::HasSubstr("column T_a_degC"));
   EXPECT_THAT(complaint("time_s,spindle_rpm\n0,1\n1,oops\n"), ::testing::HasSubstr("\"oops\""));
   EXPECT_THAT(complaint("time_s\n"), ::testing::HasSubstr("no rows"));
+}
+
+TEST(OperatingLog, TemperaturesInAnotherUnitAreNotTakenForDegC) {
+  const testing::TempFolder folder;
+  const auto read = [&](const char* rows) {
+    return OperatingLog::read(folder.write("log.csv", std::string("time_s,T_a_degC,T_b_degC\n") + rows));
+  };
+  EXPECT_THAT(testing::refusal([&] { (void)read("0,20,293\n10,20,294\n20,20,295\n"); }),
+              ::testing::AllOf(::testing::HasSubstr("column T_b_degC"), ::testing::HasSubstr("looks like kelvin")));
+  EXPECT_THAT(read("0,68,70\n10,68,75\n").doubtOfTemperatureUnit(), ::testing::HasSubstr("T_a_degC begins at 68.0"));
+  EXPECT_EQ(read("0,20,70\n10,20,75\n").doubtOfTemperatureUnit(), "") << "a hot motor beside a room";
+  EXPECT_EQ(read("0,,\n10,,\n").doubtOfTemperatureUnit(), "");
+}
+
+TEST(OperatingLog, TimesThatAreRepeatedAreTold) {
+  const testing::TempFolder folder;
+  const auto remarks = [&](const char* rows) {
+    return OperatingLog::remarks(folder.write("log.csv", std::string("time_s,a\n") + rows));
+  };
+  EXPECT_THAT(remarks("0,1\n5,2\n5,3\n5,4\n"),
+              ElementsAre("The log repeats the time of the row before 2 times; the last row of one time holds."));
+  EXPECT_THAT(remarks("0,1\n5,2\n6,3\n"), ElementsAre());
 }
 
 /// What reading it complains of, or "accepted".
