@@ -96,6 +96,7 @@ ReportTask ReportTask::of(const TaskGraph& graph, const ExcludedItems& excluded)
   task.options.search.reject = asked.effects.rejected;
   task.options.fit = asked.fit.options();
   task.options.fit.state.clear();
+  task.options.iso230 = [choice = asked.iso230](const TimeSeries& series) { return choice.request(series); };
   task.options.exclusions.assign(excluded.begin(), excluded.end());
   task.options.notes = asked.notes;
   return task;

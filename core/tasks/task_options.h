@@ -21,6 +21,7 @@
 #include "core/session/session.h"
 #include "core/tasks/option_fields.h"
 #include "core/workflows/compensation_workflow.h"
+#include "core/workflows/thermal_tests.h"
 #include "core/workflows/thermal_workflow.h"
 #include "core/workflows/verify_compensation.h"
 
@@ -39,6 +40,7 @@ inline constexpr auto cycles = "cycle-model";
 inline constexpr auto scan_model = "scan-model";
 inline constexpr auto thermal = "thermal-model";
 inline constexpr auto over_time = "model-over-time";
+inline constexpr auto iso230 = "iso-230-3";
 inline constexpr auto discrepancy = "discrepancy";
 inline constexpr auto compensation = "compensation";
 inline constexpr auto verify = "verify";
@@ -122,6 +124,26 @@ struct ThermalChoice {
     visit("test", o.test);
     visit("method", o.method);
     visit("inputs", o.inputs);
+  }
+};
+
+/// Of the thermal test of ISO 230-3 in a log.
+struct Iso230Choice {
+  static constexpr auto key = option_keys::iso230;
+  std::string test;                    ///< "etve" or "spindle"; empty: the one that the log is a record of
+  std::optional<std::string> ambient;  ///< column; empty text: none; not there: that of the room
+  std::string speed;                   ///< column; empty: that of the spindle
+  std::string range;                   ///< "FROM:TO" in s as typed; empty: the whole record
+
+  /// Throws InputError for a range that cannot be read. The test may be empty: the log is a record of none.
+  [[nodiscard]] Iso230Request request(const TimeSeries& series) const;
+  bool operator==(const Iso230Choice&) const = default;
+  template <class Options, class Visitor>
+  static void fields(Options& o, const Visitor& visit) {
+    visit("test", o.test);
+    visit("ambient", o.ambient);
+    visit("speed", o.speed);
+    visit("range", o.range);
   }
 };
 
@@ -330,6 +352,7 @@ struct ReportTaskOptions {
   NineParameterChoice fit;
   nlohmann::json warm;                   ///< the operator's word that the instrument was warm; null: not given
   std::optional<std::string> simulator;  ///< the one that was chosen
+  Iso230Choice iso230;
 
   [[nodiscard]] static ReportTaskOptions of(const Session& session, std::int64_t campaign);
   template <class Options, class Visitor>
@@ -341,6 +364,7 @@ struct ReportTaskOptions {
     visit("fit", o.fit);
     visit("warm", o.warm);
     visit("simulator", o.simulator);
+    visit("iso230", o.iso230);
   }
 };
 

@@ -94,8 +94,9 @@ spindrift_compensator* spindrift_compensator_load(const char* model_file, double
   spindrift_compensator_options options{};
   options.struct_size = sizeof options;
   options.cycle_s = cycle_s;
-  options.limit = limit > 0.0 ? limit : 0.0;
-  options.slew_per_s = slew_per_s > 0.0 ? slew_per_s : 0.0;
+  // What is no number is refused where it is taken.
+  options.limit = limit <= 0.0 ? 0.0 : limit;
+  options.slew_per_s = slew_per_s <= 0.0 ? 0.0 : slew_per_s;
   return spindrift_compensator_load_with(model_file, &options, message,
                                          message_size > 0 ? static_cast<std::size_t>(message_size) : 0);
 }

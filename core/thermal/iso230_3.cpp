@@ -583,7 +583,9 @@ SpindleResult evaluateRotatingSpindle(std::span<const double> time_s, std::span<
       beyond = now;
     }
     if (std::abs(out.at_end) < 3.0 * out.change_sigma) out.time_to_fraction_s = std::nan("");
-    out.range = rangeOf(time_s, c.values, window_s, start, stop, reading_sigma).size;
+    const auto range = rangeOf(time_s, c.values, window_s, start, stop, reading_sigma);
+    out.range = range.size;
+    out.range_sigma = range.sigma;
     result.components.push_back(out);
   }
   return result;

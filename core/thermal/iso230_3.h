@@ -60,6 +60,7 @@ struct SpindleComponent {
   double first_hour_sigma = 0.0;  ///< standard uncertainty of `first_hour`; NaN as that is
   double change_sigma = 0.0;      ///< of `at_end`
   double range = 0.0;             ///< over the running period
+  double range_sigma = 0.0;
   double time_to_fraction_s =
       0.0;  ///< first time from which the change stays beyond `fraction` of its end value; NaN if it ends below 3 sigma
   double after_cooling = 0.0;  ///< change left at the end of the record

@@ -543,7 +543,9 @@ ThermalModel ThermalModel::parse(const JsonNode& root) {
   for (const JsonNode& node : root.at("outputs").items()) {
     ThermalOutput output;
     output.name = node.at("name").name();
-    output.unit = node.stringOr("unit", "um");
+    const auto same = [&](const ThermalOutput& other) { return other.name == output.name; };
+    if (std::any_of(model.outputs.begin(), model.outputs.end(), same)) node.at("name").reject("every output once");
+    output.unit = node.at("unit").string();  // "": of a column without one
     output.offset = node.at("offset").number();
     for (const JsonNode& t : node.at("terms").items()) {
       LagTerm term;
@@ -572,6 +574,7 @@ ThermalModel ThermalModel::parse(const JsonNode& root) {
         std::size_t k = 0;
         for (Eigen::Index r = 0; r < n; ++r)
           for (Eigen::Index c = 0; c <= r; ++c) output.covariance(r, c) = output.covariance(c, r) = values[k++];
+        if (!(output.covariance.diagonal().minCoeff() >= 0.0)) lower->reject("a diagonal of variances, none negative");
       }
     }
     model.outputs.push_back(std::move(output));

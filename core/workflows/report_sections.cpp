@@ -20,6 +20,7 @@
 #include "core/reporting/contact_sheet.h"
 #include "core/reporting/plot_picture.h"
 #include "core/scanning/scan_picture.h"
+#include "core/workflows/compensated_data.h"
 #include "core/workflows/instrument_checks.h"
 #include "core/workflows/log_campaign.h"
 #include "core/workflows/thermal_tests.h"
@@ -237,29 +238,6 @@ void addStepResponses(Report& document, const nlohmann::json& responses) {
   }
 }
 
-/// Which test of ISO 230-3 a log is a record of: "spindle" if the spindle runs once, for half an hour or longer; "etve"
-/// if nothing moves; empty otherwise (a mixed programme is no standard test).
-std::string standardTestIn(const TimeSeries& series) {
-  bool moves = false;
-  for (const Signal& s : series.signals) {
-    if (s.kind == SignalKind::Feed)
-      moves = moves || std::any_of(s.values.begin(), s.values.end(), [](double v) { return v > 0.0; });
-    if (s.kind != SignalKind::Speed) continue;
-    std::size_t starts = 0, running = 0;
-    double first = 0.0, last = 0.0;
-    for (std::size_t i = 0; i < s.values.size(); ++i) {
-      const bool on = s.values[i] > 0.0;
-      if (on && (i == 0 || !(s.values[i - 1] > 0.0))) ++starts;
-      if (!on) continue;
-      if (running++ == 0) first = series.time_s[i];
-      last = series.time_s[i];
-    }
-    if (starts == 1 && last - first >= 1800.0) return "spindle";
-    moves = moves || running > 0;
-  }
-  return moves ? std::string() : std::string("etve");
-}
-
 }  // namespace
 
 void addPlan(Report& document, const nlohmann::json& plan_json, const Campaign& campaign) {
@@ -302,7 +280,7 @@ void addCaptures(Report& document, const Campaign& campaign, const JobContext& j
 void addOutdated(Report& document, const StoredResults& stored, const std::string& kind) {
   if (const auto changed = stored.changed.find(kind); changed != stored.changed.end())
     document.callout(CalloutKind::Attention,
-                     fmt::format("This is outdated. Changed since it was worked out: {}.", changed->second));
+                     fmt::format("Outdated. Changed since the calculation: {}.", changed->second));
 }
 
 void addInstrumentState(Report& document, const StoredResults& stored, bool has_observations) {
@@ -353,13 +331,19 @@ void addThermalModel(Report& document, const StoredResults& stored) {
                      "In the test range the model is no better than a plain one: do not use it for compensation.");
 }
 
-void addIso230(Report& document, const Campaign& campaign) {
+void addIso230(Report& document, const Campaign& campaign,
+               const std::function<Iso230Request(const TimeSeries&)>& asked) {
   if (!campaign.log || !hasOutputSignals(*campaign.log)) return;
   Iso230Result result;
   try {
-    const TimeSeries series = readTimeSeries(campaign.path("log.csv"));
+    TimeSeries series = readTimeSeries(campaign.path("log.csv"));
+    leaveOutCompensated(series);  // as the window shows the test
     Iso230Request request;
-    request.test = standardTestIn(series);
+    if (asked) {
+      request = asked(series);
+    } else {
+      request.test = standardTestIn(series);
+    }
     if (request.test.empty()) return;
     result = evaluateIso230Test(series, request);
   } catch (const InputError&) {
@@ -369,7 +353,8 @@ void addIso230(Report& document, const Campaign& campaign) {
   if (result.spindle) {
     for (const SpindleComponent& c : result.spindle->components) {
       rows.push_back({signalTitle(c.name).name, withUncertainty(c.first_hour, c.first_hour_sigma, c.unit),
-                      withUncertainty(c.at_end, c.change_sigma, c.unit), numberText(c.range, c.unit, 2),
+                      withUncertainty(c.at_end, c.change_sigma, c.unit),
+                      withUncertainty(c.range, c.range_sigma, c.unit),
                       numberText(c.time_to_fraction_s / 60.0, "min", 0)});
     }
     if (rows.empty()) return;

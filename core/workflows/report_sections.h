@@ -4,6 +4,7 @@
 // command worked out and computes nothing that is not said here. Units as in FORMATS.md.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -13,6 +14,7 @@
 #include "core/machine/campaign.h"
 #include "core/reporting/report.h"
 #include "core/workflows/measurement_plan.h"
+#include "core/workflows/thermal_tests.h"
 
 namespace spindrift {
 
@@ -55,7 +57,9 @@ void addThermalModel(Report& document, const StoredResults& stored);
 
 /// The test of ISO 230-3 that the log is a record of: rotating spindle if it runs once and long enough, environmental
 /// variation if nothing moves; on the displacements of the log. Nothing for a mixed programme.
-void addIso230(Report& document, const Campaign& campaign);
+/// `asked`: the test as it was chosen; none, or one without a test: the one that the log is a record of.
+void addIso230(Report& document, const Campaign& campaign,
+               const std::function<Iso230Request(const TimeSeries&)>& asked);
 
 /// What a control would be commanded, and what is expected to remain.
 void addCompensation(Report& document, const StoredResults& stored);

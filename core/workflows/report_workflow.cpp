@@ -147,7 +147,9 @@ Report reportOfCampaign(const Campaign& campaign, const ReportOptions& options, 
   const std::string left_out = leaveOutCompensated(input.observations, campaign.log.get());
   if (!left_out.empty()) input.notes.push_back(left_out);
   if (campaign.log && !campaign.log->file().empty()) {
-    for (std::string& note : OperatingLog::columnsLeftOut(campaign.log->file())) input.notes.push_back(std::move(note));
+    for (std::string& note : OperatingLog::remarks(campaign.log->file())) input.notes.push_back(std::move(note));
+    if (std::string doubt = campaign.log->doubtOfTemperatureUnit(); !doubt.empty())
+      input.notes.push_back(std::move(doubt));
   }
   const StoredResults& stored = options.stored;
   addHeadlines(input, stored);
@@ -184,7 +186,7 @@ Report reportOfCampaign(const Campaign& campaign, const ReportOptions& options, 
          }});
   }
   input.conclusions = {[&](Report& document) { addThermalModel(document, stored); },
-                       [&](Report& document) { addIso230(document, campaign); },
+                       [&](Report& document) { addIso230(document, campaign, options.iso230); },
                        [&](Report& document) { addCompensation(document, stored); },
                        [&](Report& document) { addLogCompensation(document, stored); },
                        [&](Report& document) { addVerification(document, stored); }};

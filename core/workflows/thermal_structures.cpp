@@ -165,13 +165,15 @@ StructuredFit fitByArx(const TimeSeries& series, const IdentifyRequest& request,
   ArxModel model = fitArx(y, u, {order[0], std::vector<int>(u.size(), order[1]), std::vector<int>(u.size(), order[2])},
                           b.all.period_s, options);
   if (model.status != FitStatus::Converged) throw InputError({series.file, ""}, model.message);
-  if (!model.stable()) {
+  const bool stable = model.stable();
+  if (!stable) {
     model = stabilised(model);
     out.notes.push_back("The ARX fit was unstable: " + model.message);
   }
   const double white = equationWhiteness(model, y, u);
   out.structure["equation_whiteness_p_value"] = white;
-  out.structure["uncertainty_holds"] = white >= 1e-3;
+  const bool uncertainty_holds = stable && white >= 1e-3;
+  out.structure["uncertainty_holds"] = uncertainty_holds;
   if (white < 1e-3) {
     out.notes.push_back(
         "The residual of the ARX equation is not white (noise at the output, or missing dynamics): its coefficients "
@@ -207,7 +209,8 @@ StructuredFit fitByArx(const TimeSeries& series, const IdentifyRequest& request,
   output.terms = lagsOf(model, message);
   if (!message.empty()) out.notes.push_back(message);
   output.offset = model.c / (1.0 + model.a.sum());
-  if (!output.terms.empty()) output.covariance = lagCovariance(model);
+  // An interval that does not hold is none.
+  if (!output.terms.empty() && uncertainty_holds) output.covariance = lagCovariance(model);
   std::vector<double> left;
   for (std::size_t k = 0; k < y.size(); ++k) left.push_back(y[k] - simulated[k]);
   output.noise_sigma = rootMeanSquare(left);

@@ -50,14 +50,22 @@ Iso230Result evaluateAxis(const Iso230Request& request) {
     throw InputError(fmt::format("--axis \"{}\" is not a linear axis; allowed: X, Y, Z.", request.axis));
   const auto index = static_cast<int>(found - axes.begin());
   std::vector<AxisReading> readings;
+  std::size_t without_direction = 0;
   for (const Observation& o : set.rows) {
     if (o.use == ObservationUse::Exclude || isRotation(o.component) || axisIndex(o.component) != index) continue;
+    without_direction += o.approach[index] == 0.0 ? 1 : 0;
     readings.push_back({o.time_s, o.position_mm[index], o.value, o.approach[index] < 0.0 ? -1 : 1, o.point, o.sigma});
   }
   if (readings.empty()) {
     throw InputError(
         {request.observations, "column component"},
         fmt::format("there is no reading of E{}; allowed: readings of the axis at two positions.", request.axis));
+  }
+  if (without_direction != 0 && without_direction != readings.size()) {
+    throw InputError({request.observations, fmt::format("column dir_{}", "xyz"[index])},
+                     fmt::format("{} of {} readings of E{} have no direction of approach; allowed: one for every "
+                                 "reading, or for none.",
+                                 without_direction, readings.size(), request.axis));
   }
   Iso230Result result;
   result.test = "axis";
@@ -67,7 +75,7 @@ Iso230Result evaluateAxis(const Iso230Request& request) {
     throw InputError({request.observations, "column component"}, e.sentence());
   }
   result.diagram =
-      drawCurves("Expansion between both ends, axis " + request.axis + ", µm",
+      drawCurves("Thermal distortion caused by motion of axis " + request.axis + ", µm",
                  {{"expansion", result.axis->time_s, result.axis->expansion_over_time_um, {}, SeriesStyle::Line}});
   return result;
 }
@@ -137,6 +145,27 @@ const Signal* speedOf(const TimeSeries& series, const std::string& asked) {
 
 }  // namespace
 
+std::string standardTestIn(const TimeSeries& series) {
+  bool moves = false;
+  for (const Signal& s : series.signals) {
+    if (s.kind == SignalKind::Feed)
+      moves = moves || std::any_of(s.values.begin(), s.values.end(), [](double v) { return v > 0.0; });
+    if (s.kind != SignalKind::Speed) continue;
+    std::size_t starts = 0, running = 0;
+    double first = 0.0, last = 0.0;
+    for (std::size_t i = 0; i < s.values.size(); ++i) {
+      const bool on = s.values[i] > 0.0;
+      if (on && (i == 0 || !(s.values[i - 1] > 0.0))) ++starts;
+      if (!on) continue;
+      if (running++ == 0) first = series.time_s[i];
+      last = series.time_s[i];
+    }
+    if (starts == 1 && last - first >= 1800.0) return "spindle";
+    moves = moves || running > 0;
+  }
+  return moves ? std::string() : std::string("etve");
+}
+
 Iso230Result evaluateIso230Test(const TimeSeries& whole, const Iso230Request& request) {
   const TimeSeries series = request.range ? seriesWithin(whole, *request.range) : whole;
   Iso230Result result;
@@ -164,25 +193,26 @@ Iso230Result evaluateIso230Test(const TimeSeries& whole, const Iso230Request& re
     result.notes.insert(result.notes.end(), at_rest.begin(), at_rest.end());
     std::string ambient = request.ambient;
     for (const Signal& s : series.signals) {
-      if (ambient.empty() && OperatingLog::isTemperature(s.name) && readSensorRole(s.name) == SensorRole::Room) {
+      if (ambient.empty() && !request.without_ambient && OperatingLog::isTemperature(s.name) &&
+          readSensorRole(s.name) == SensorRole::Room) {
         ambient = s.name;
         result.notes.push_back(ambient + " is taken for the ambient temperature by its name; --ambient names another.");
       }
     }
-    if (ambient.empty())
+    if (ambient.empty() && !request.without_ambient)
       result.notes.push_back("No ambient temperature was named (--ambient): nothing is given per K.");
     result.etve =
         evaluateEtve(series.time_s, components,
                      ambient.empty() ? std::span<const double>{} : std::span<const double>(series.at(ambient).values),
                      request.window_s);
     if (!result.etve->note.empty()) result.notes.push_back(result.etve->note);
-    result.diagram = drawCurves("Environmental variation (ETVE), µm or µrad", curves);
+    result.diagram = drawCurves("Environmental temperature variation error (ETVE), µm or µrad", curves);
   } else {
     const Signal* speed = speedOf(series, request.speed);
     const std::vector<double> rpm = bridged(series.time_s, speed->values, true);
     if (std::string note = requireOneSpeedStep(series, speed->name, rpm); !note.empty()) result.notes.push_back(note);
     result.spindle = evaluateRotatingSpindle(series.time_s, rpm, components, request.fraction, request.window_s);
-    result.diagram = drawCurves("Rotating spindle, µm or µrad", curves);
+    result.diagram = drawCurves("Thermal distortion caused by the rotating spindle, µm or µrad", curves);
   }
   return result;
 }
@@ -216,6 +246,7 @@ nlohmann::json Iso230Result::json() const {
                                    {"at_end", jsonNumber(c.at_end)},
                                    {"standard_uncertainty", c.change_sigma},
                                    {"range", c.range},
+                                   {"range_standard_uncertainty", c.range_sigma},
                                    {"time_to_fraction_s", jsonNumber(c.time_to_fraction_s)},
                                    {"after_cooling", jsonNumber(c.after_cooling)},
                                    {"after_cooling_standard_uncertainty", jsonNumber(c.after_cooling_sigma)}});
@@ -257,10 +288,13 @@ std::string Iso230Result::summary() const {
   if (spindle) {
     text += fmt::format("rotating spindle from {:.6g} s to {:.6g} s\n", spindle->start_s, spindle->stop_s);
     for (const SpindleComponent& c : spindle->components) {
-      text += fmt::format("  {}: at the end {}, first hour {}, {:.0f} % after {:.0f} min\n", c.name,
-                          withUncertainty(c.at_end, c.change_sigma, c.unit),
-                          withUncertainty(c.first_hour, c.first_hour_sigma, c.unit), 100.0 * spindle->fraction,
-                          c.time_to_fraction_s / 60.0);
+      text += fmt::format(
+          "  {}: at the end {}, first hour {}, range {}, {:.0f} % after {}\n", c.name,
+          withUncertainty(c.at_end, c.change_sigma, c.unit),
+          std::isfinite(c.first_hour) ? withUncertainty(c.first_hour, c.first_hour_sigma, c.unit) : "not determined",
+          withUncertainty(c.range, c.range_sigma, c.unit), 100.0 * spindle->fraction,
+          std::isfinite(c.time_to_fraction_s) ? fmt::format("{:.0f} min", c.time_to_fraction_s / 60.0)
+                                              : "not determined (the change is below three standard uncertainties)");
     }
   }
   if (axis) {

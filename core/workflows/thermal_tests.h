@@ -21,7 +21,8 @@ struct Iso230Request {
   std::filesystem::path log;           ///< etve, spindle: signals over time
   std::filesystem::path observations;  ///< axis: observations.csv with readings at two positions
   std::vector<std::string> columns;    ///< displacements and tilts; empty: every _um and _urad column
-  std::string ambient;                 ///< column; empty: T_room, T_ambient or none
+  std::string ambient;                 ///< column; empty: that of the room by its name
+  bool without_ambient = false;        ///< none, whatever there is
   std::string speed;                   ///< spindle: column; empty: spindle_rpm, or the only one
   std::string axis = "X";              ///< of the moving axis test
   double fraction = 0.9;               ///< of the end value
@@ -39,6 +40,9 @@ struct Iso230Result {
   [[nodiscard]] nlohmann::json json() const;
   [[nodiscard]] std::string summary() const;
 };
+/// Which test of ISO 230-3 a log is a record of: "spindle" if the spindle runs once, for half an hour or longer; "etve"
+/// if nothing moves; empty otherwise (a mixed programme is no standard test).
+[[nodiscard]] std::string standardTestIn(const TimeSeries& series);
 [[nodiscard]] Iso230Result evaluateIso230Test(const Iso230Request& request, const JobContext& job);
 /// "etve" and "spindle" on a series in memory.
 [[nodiscard]] Iso230Result evaluateIso230Test(const TimeSeries& series, const Iso230Request& request);

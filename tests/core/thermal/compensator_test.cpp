@@ -9,9 +9,13 @@
 #include <cstddef>
 #include <functional>
 #include <limits>
+#include <nlohmann/json.hpp>
+#include <vector>
 
+#include "core/base/json_reader.h"
 #include "core/thermal/compensator_c.h"
 #include "core/thermal/thermal_model.h"
+#include "tests/support/refusal.h"
 #include "tests/support/temp_folder.h"
 
 extern "C" int compensate_one_minute(const char* model_file, double temperature_degC, double* compensation);
@@ -544,6 +548,31 @@ TEST(Compensator, WorksFromC) {
   EXPECT_EQ(spindrift_compensator_load((folder / "none.json").c_str(), 1.0, 0.0, 0.0, message, sizeof message),
             nullptr);
   EXPECT_THAT(message, HasSubstr("none.json"));
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(spindrift_compensator_load((folder / "model.json").c_str(), 1.0, nan, 0.0, message, sizeof message),
+            nullptr)
+      << "a limit that is no number is none that was left out";
+  EXPECT_THAT(message, HasSubstr("limit"));
+}
+
+TEST(Compensator, AModelWhoseFileSaysNonsenseIsRefused) {
+  const testing::TempFolder folder;
+  const auto refusal = [&](const std::function<void(nlohmann::json&)>& spoil) {
+    nlohmann::json json = model().json();
+    spoil(json);
+    return testing::refusal([&] { (void)ThermalModel::parse(JsonNode::parse(json.dump(), "model.json")); });
+  };
+  EXPECT_EQ(refusal([](nlohmann::json&) {}), "");
+  EXPECT_THAT(refusal([](nlohmann::json& json) { json["outputs"][0].erase("unit"); }), HasSubstr("unit"));
+  EXPECT_THAT(refusal([](nlohmann::json& json) { json["outputs"].push_back(json["outputs"][0]); }),
+              HasSubstr("every output once"));
+  EXPECT_THAT(refusal([](nlohmann::json& json) {
+                auto& lower = json["outputs"][0]["covariance_lower"];
+                const std::size_t n = 1 + json["outputs"][0]["terms"].size();
+                lower = std::vector<double>(n * (n + 1) / 2, 0.0);
+                lower[0] = -1.0;
+              }),
+              HasSubstr("none negative"));
 }
 
 }  // namespace

@@ -98,11 +98,15 @@ TEST(Iso2303, EveryChangeHasItsOwnUncertainty) {
     z.values.push_back(0.001 * t);
   }
   const SpindleComponent c = evaluateRotatingSpindle(time, speed, {z}).components[0];
+  z.reading_sigma = 1e-9;
+  const double true_range = evaluateRotatingSpindle(time, speed, {z}).components[0].range;
+  z.reading_sigma = 0.3;
   EXPECT_LT(c.first_hour_sigma, 0.8 * c.change_sigma);
   EXPECT_NEAR(c.after_cooling_sigma, c.change_sigma, 0.1 * c.change_sigma);
   // Against noise: what is stated is how the values scatter.
   double first = 0.0;
   double cooled = 0.0;
+  double range = 0.0;
   constexpr int runs = 400;
   for (int seed = 1; seed <= runs; ++seed) {
     Random random(static_cast<std::uint64_t>(seed));
@@ -111,9 +115,11 @@ TEST(Iso2303, EveryChangeHasItsOwnUncertainty) {
     const SpindleComponent n = evaluateRotatingSpindle(time, speed, {noisy}).components[0];
     first += std::pow((n.first_hour - c.first_hour) / c.first_hour_sigma, 2) / runs;
     cooled += std::pow((n.after_cooling - c.after_cooling) / c.after_cooling_sigma, 2) / runs;
+    range += std::pow((n.range - true_range) / n.range_sigma, 2) / runs;
   }
   EXPECT_NEAR(first, 1.0, 0.25);
   EXPECT_NEAR(cooled, 1.0, 0.25);
+  EXPECT_NEAR(range, 1.0, 0.5) << "of levels of windows, the extreme ones chosen";
 }
 
 /// Single readings: the time grows with their number, not with its square.

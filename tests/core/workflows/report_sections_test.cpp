@@ -176,7 +176,7 @@ TEST_F(ReportSections, WhatDoesNotHoldAnyMoreIsSaidToBeOutdated) {
   EXPECT_THAT(html(options), Not(HasSubstr("outdated")));
   options.stored.changed = {{"verify", "1 exclusion more"}, {"check-jogs", "the machine"}};
   const std::string text = html(options);
-  EXPECT_THAT(text, HasSubstr("This is outdated. Changed since it was worked out: 1 exclusion more."));
+  EXPECT_THAT(text, HasSubstr("Outdated. Changed since the calculation: 1 exclusion more."));
   EXPECT_THAT(text, HasSubstr("outdated: EX is left with 1.0 µm")) << "also on the first page";
   EXPECT_THAT(text, HasSubstr("outdated, changed since: the machine. EX returns within 0.2 µm."));
 }

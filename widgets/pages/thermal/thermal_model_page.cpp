@@ -38,7 +38,9 @@ constexpr std::array<const char*, 3> methods{"response", "arx", "oe"};
 }  // namespace
 
 ThermalModelPage::ThermalModelPage(PageContext page_context, QWidget* parent)
-    : Page(std::move(page_context), StepId::Model, parent), options_(session(), context().undo, [this] { refresh(); }) {
+    : Page(std::move(page_context), StepId::Model, parent),
+      options_(session(), context().undo, [this] { refresh(); }),
+      iso_options_(session(), context().undo, [this] { refresh(); }) {
   setInstruction(tr("Train a model over time on one part of the log and judge it in free run on another."));
   identify_ = makeButton(tr("Identify the model"), nullptr, "primary");
   addModelSwitch(false);
@@ -140,7 +142,7 @@ QWidget* ThermalModelPage::makeDetails() {
                            tr("Identify the model: the answer to a step of each input with its uncertainty."));
   step_column->addWidget(step_plot_, 1);
   tabs_->addTab(step, tr("Step response"));
-  lags_ = new RowsModel({tr("Input"), tr("Time constant"), tr("Pole / 1/h"), tr("Gain"), tr("Unit")}, this);
+  lags_ = new RowsModel({tr("Input"), tr("Time constant"), tr("Pole / (1/h)"), tr("Gain"), tr("Unit")}, this);
   tabs_->addTab(makeTable(lags_, tr("Time constants"),
                           tr("Poles as time constants with their gains appear after the identification.")),
                 tr("Time constants"));
@@ -163,6 +165,9 @@ QWidget* ThermalModelPage::makeDetails() {
   updates_ = new UpdatePanel([this](const QString& title, UpdatePanel::Work work) { run(title, std::move(work)); });
   tabs_->addTab(updates_, tr("Updates"));
   iso_ = new IsoPanel;
+  connect(iso_, &IsoPanel::chosen, this, [this](const Iso230Choice& choice) {
+    iso_options_.change(tr("choose the test of ISO 230-3"), [&](Iso230Choice& o) { o = choice; });
+  });
   tabs_->addTab(iso_, QStringLiteral("ISO 230-3"));
   card->body()->addWidget(tabs_, 1);
   connect(step_input_, &QComboBox::activated, this, &ThermalModelPage::showStep);
@@ -252,7 +257,7 @@ void ThermalModelPage::refresh() {
     return;
   }
   options_.fill([this] { fillChoices(); });
-  iso_->set(series_);
+  iso_->set(series_, iso_options_.now());
   const auto sigma = sigma_.find(request().output);
   const ShownTask stored = shown("thermal", tr("Reading the model"));
   if (!stored.reading) result_ = stored.as<IdentifyResult>();

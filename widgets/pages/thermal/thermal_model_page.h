@@ -89,6 +89,7 @@ class ThermalModelPage : public Page {
   UpdatePanel* updates_;
   IsoPanel* iso_;
   BoundOptions<ThermalChoice> options_;
+  BoundOptions<Iso230Choice> iso_options_;
 };
 
 }  // namespace spindrift::gui

@@ -80,28 +80,62 @@ IsoPanel::IsoPanel(QWidget* parent) : QWidget(parent) {
                                            tr("Range, change and time of each component appear here.")),
                                  plots, 5, 6, Qt::Vertical),
                     1);
-  connect(test_, &Segments::chosen, this, [this](int) { evaluate(); });
-  connect(ambient_, &QComboBox::activated, this, [this](int) { evaluate(); });
-  connect(speed_, &QComboBox::activated, this, [this](int) { evaluate(); });
-  connect(range_, &QLineEdit::editingFinished, this, [this] { evaluate(); });
+  connect(test_, &Segments::chosen, this, [this](int) { choose(); });
+  connect(ambient_, &QComboBox::activated, this, [this](int) { choose(); });
+  connect(speed_, &QComboBox::activated, this, [this](int) { choose(); });
+  connect(range_, &QLineEdit::editingFinished, this, [this] { choose(); });
 }
 
-void IsoPanel::set(std::shared_ptr<const TimeSeries> series) {
-  if (series == series_) return;
+void IsoPanel::set(std::shared_ptr<const TimeSeries> series, const Iso230Choice& choice) {
+  if (series == series_ && choice == choice_) return;
+  const bool another = series != series_;
   series_ = std::move(series);
-  ambient_->clear();
-  ambient_->addItem(tr("none"));
-  speed_->clear();
-  if (series_ != nullptr) {
-    for (const Signal& s : series_->signals) {
-      if (s.kind == SignalKind::Speed) speed_->addItem(fromCore(s.name));
-      if (s.kind != SignalKind::Temperature) continue;
-      ambient_->addItem(fromCore(s.name));
-      if (readSensorRole(s.name) == SensorRole::Room) ambient_->setCurrentIndex(ambient_->count() - 1);
-    }
-    speed_->setCurrentIndex(std::max(0, speed_->findText(QStringLiteral("spindle_rpm"))));
-  }
+  choice_ = choice;
+  if (another) fillColumns();
+  fillChoice();
   evaluate();
+}
+
+void IsoPanel::fillColumns() {
+  ambient_->clear();
+  ambient_->addItem(tr("none"), QString());
+  speed_->clear();
+  for (const Signal& s : series_ == nullptr ? std::vector<Signal>{} : series_->signals) {
+    const QString name = fromCore(s.name);
+    if (s.kind == SignalKind::Speed) speed_->addItem(name, name);
+    if (s.kind == SignalKind::Temperature) ambient_->addItem(name, name);
+  }
+}
+
+void IsoPanel::fillChoice() {
+  range_->setText(QString::fromStdString(choice_.range));
+  if (series_ == nullptr) return;
+  const std::string test = choice_.test.empty() ? standardTestIn(*series_) : choice_.test;
+  test_->setCurrent(test == "spindle" ? 1 : 0);
+  QString room;
+  for (const Signal& s : series_->signals)
+    if (s.kind == SignalKind::Temperature && readSensorRole(s.name) == SensorRole::Room) room = fromCore(s.name);
+  const QString ambient = choice_.ambient ? QString::fromStdString(*choice_.ambient) : room;
+  ambient_->setCurrentIndex(std::max(0, ambient_->findData(ambient)));
+  const QString speed = choice_.speed.empty() ? QStringLiteral("spindle_rpm") : QString::fromStdString(choice_.speed);
+  speed_->setCurrentIndex(std::max(0, speed_->findData(speed)));
+  shown_ = controls();
+}
+
+Iso230Choice IsoPanel::controls() const {
+  Iso230Choice choice;
+  choice.test = test_->current() == 0 ? "etve" : "spindle";
+  choice.ambient = ambient_->currentData().toString().toStdString();
+  choice.speed = speed_->currentData().toString().toStdString();
+  choice.range = range_->text().trimmed().toStdString();
+  return choice;
+}
+
+void IsoPanel::choose() {
+  if (controls() == shown_) return;
+  choice_ = shown_ = controls();
+  evaluate();
+  Q_EMIT chosen(choice_);
 }
 
 void IsoPanel::evaluate() {
@@ -111,13 +145,10 @@ void IsoPanel::evaluate() {
   ambient_->setEnabled(test_->current() == 0);
   speed_->setEnabled(test_->current() == 1 && speed_->count() > 1);
   if (series_ == nullptr) return;
-  Iso230Request request;
-  request.test = test_->current() == 0 ? "etve" : "spindle";
-  if (ambient_->currentIndex() > 0) request.ambient = ambient_->currentText().toStdString();
-  if (speed_->currentIndex() >= 0) request.speed = speed_->currentText().toStdString();
   try {
-    const std::string range = range_->text().trimmed().toStdString();
-    if (!range.empty()) request.range = TimeRange::parse(range, "The range of the test");
+    Iso230Request request = choice_.request(*series_);
+    if (request.test.empty()) request.test = "etve";  // it says what speaks against it
+    if (request.speed.empty()) request.speed = speed_->currentData().toString().toStdString();
     const Iso230Result result = evaluateIso230Test(*series_, request);
     if (result.etve) showEtve(*result.etve);
     if (result.spindle) showSpindle(*result.spindle);
@@ -178,12 +209,14 @@ void IsoPanel::showSpindle(const SpindleResult& result) {
     Row row;
     row.id = fromCore(c.name);
     const QString unit = unitText(c.unit);
-    row.cells = {nameCell(row.id), Cell{tr("at the end %1").arg(quantityText(c.at_end, c.change_sigma, unit))},
-                 Cell{tr("first hour %1").arg(quantityText(c.first_hour, c.first_hour_sigma, unit))},
-                 Cell{std::isfinite(c.time_to_fraction_s) ? tr("%1 % after %2 min")
-                                                                .arg(decimalText(100 * result.fraction, 'f', 0))
-                                                                .arg(decimalText(c.time_to_fraction_s / 60, 'f', 0))
-                                                          : QStringLiteral("–")}};
+    row.cells = {
+        nameCell(row.id), Cell{tr("at the end %1").arg(quantityText(c.at_end, c.change_sigma, unit))},
+        Cell{std::isfinite(c.first_hour) ? tr("first hour %1").arg(quantityText(c.first_hour, c.first_hour_sigma, unit))
+                                         : QStringLiteral("–")},
+        Cell{std::isfinite(c.time_to_fraction_s) ? tr("%1 % after %2 min")
+                                                       .arg(decimalText(100 * result.fraction, 'f', 0))
+                                                       .arg(decimalText(c.time_to_fraction_s / 60, 'f', 0))
+                                                 : QStringLiteral("–")}};
     rows.push_back(std::move(row));
   }
   rows_->setRows(std::move(rows));

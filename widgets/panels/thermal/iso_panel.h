@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The thermal tests of ISO 230-3 on the log at hand: environmental variation and rotating spindle, parameters with
-// uncertainty.
+// The thermal tests of ISO 230-3 on the log at hand: environmental temperature variation and rotating spindle,
+// parameters with uncertainty. What is chosen belongs to the campaign: the report tells the same test.
 #pragma once
 
 #include <QWidget>
 #include <array>
 #include <memory>
 
+#include "core/tasks/task_options.h"
 #include "core/workflows/thermal_tests.h"
 
 class QComboBox;
@@ -23,7 +24,8 @@ class IsoPanel : public QWidget {
   Q_OBJECT
  public:
   explicit IsoPanel(QWidget* parent = nullptr);
-  void set(std::shared_ptr<const TimeSeries> series);
+  /// Shows the test that is chosen of a series; another one of either is told by `chosen`.
+  void set(std::shared_ptr<const TimeSeries> series, const Iso230Choice& choice = {});
   [[nodiscard]] Segments* test() const { return test_; }
   [[nodiscard]] QComboBox* speed() const { return speed_; }
   [[nodiscard]] QLineEdit* range() const { return range_; }
@@ -32,7 +34,14 @@ class IsoPanel : public QWidget {
   [[nodiscard]] Plot* plot(bool rotations = false) const { return plots_[rotations ? 1 : 0]; }
   [[nodiscard]] Callout* note() const { return note_; }
 
+ Q_SIGNALS:
+  void chosen(const Iso230Choice& choice);
+
  private:
+  void fillColumns();
+  void fillChoice();
+  [[nodiscard]] Iso230Choice controls() const;
+  void choose();
   void evaluate();
   /// Draws what the log holds, or nothing.
   void showCurves(bool any);
@@ -40,6 +49,8 @@ class IsoPanel : public QWidget {
   void showSpindle(const SpindleResult& result);
 
   std::shared_ptr<const TimeSeries> series_;
+  Iso230Choice choice_;
+  Iso230Choice shown_;  ///< the same as the controls say it, with what was not chosen
   Segments* test_;
   QComboBox* ambient_;
   QComboBox* speed_;  ///< column that says when the spindle runs

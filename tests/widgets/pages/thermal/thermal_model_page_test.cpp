@@ -173,6 +173,8 @@ TEST(IsoPanelTest, TheColumnOfTheSpeedIsChosen) {
             exactNumber(0.1 * i) + "\n";
   IsoPanel panel;
   panel.set(std::make_shared<TimeSeries>(parseTimeSeries(text, "log.csv")));
+  EXPECT_EQ(panel.test()->current(), 1) << "the spindle runs once";
+  panel.test()->button(0)->click();
   EXPECT_FALSE(panel.speed()->isEnabled()) << "of a machine at rest";
   panel.test()->button(1)->click();
   ASSERT_EQ(panel.speed()->count(), 2);
