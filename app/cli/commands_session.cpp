@@ -13,6 +13,7 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/session/session.h"
+#include "core/tasks/campaign_state.h"
 #include "core/tasks/steps.h"
 
 namespace spindrift::cli {
@@ -27,11 +28,14 @@ struct SessionArguments {
 };
 
 nlohmann::json stepsOf(const Session& session, const CampaignRecord& record, std::string& summary) {
-  CampaignResults results;
+  // As the window has it: the machine and the clocks as they were edited.
+  CampaignState state;
+  state.id = record.id;
+  state.files = std::make_shared<const Campaign>(Campaign::read(record.folder));
+  state.apply(CampaignEdits::of(session, record.id));
+  state.excluded = excludedItems(session, record.id);
   const TaskLedger nothing_runs;
-  const TaskGraph graph(
-      session, record.id, std::make_shared<Campaign>(Campaign::read(record.folder)),
-      [&](const TaskGraph& tasks, const std::string& kind) { return results.latest(tasks, kind); }, nothing_runs);
+  const TaskGraph graph = state.tasks(session, nothing_runs);
   const CaptureCounts counts = CaptureCounts::of(graph);
   nlohmann::json steps = nlohmann::json::array();
   for (const StepId step : all_steps) {

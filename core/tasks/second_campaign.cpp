@@ -6,6 +6,7 @@
 #include <system_error>
 #include <vector>
 
+#include "core/base/rationed_answers.h"
 #include "core/session/fingerprint.h"
 #include "core/workflows/evaluate_campaign.h"
 
@@ -63,25 +64,33 @@ SecondCampaign::Measured SecondCampaign::measured(JobContext& job) const {
   return {campaign, std::move(set)};
 }
 
-std::string fingerprintOfSecond(const Session& session, std::int64_t own, const fs::path& folder) {
-  if (folder.empty()) return {};
-  if (const auto record = recordOf(session, folder))
-    return record->id == own ? std::string() : Fingerprint().add(session.inputs(record->id).dump()).text();
+namespace {
+
+/// All files below a folder, by size and time of the last change.
+std::string fingerprintOfTree(const fs::path& folder) {
   std::vector<std::string> files;
-  for (const fs::path& place : {folder, folder / "captures"}) {
-    std::error_code error;
-    for (fs::directory_iterator it(place, error), end; !error && it != end; it.increment(error)) {
-      std::error_code gone;
-      if (!it->is_regular_file(gone)) continue;
-      files.push_back(it->path().lexically_relative(folder).generic_string() + "\n" +
-                      std::to_string(it->file_size(gone)) + "\n" +
-                      std::to_string(it->last_write_time(gone).time_since_epoch().count()));
-    }
+  std::error_code error;
+  for (fs::recursive_directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
+    std::error_code gone;
+    if (!it->is_regular_file(gone)) continue;
+    files.push_back(it->path().lexically_relative(folder).generic_string() + "\n" +
+                    std::to_string(it->file_size(gone)) + "\n" +
+                    std::to_string(it->last_write_time(gone).time_since_epoch().count()));
   }
   std::sort(files.begin(), files.end());
   Fingerprint all;
   for (const std::string& file : files) all.add(file);
   return all.text();
+}
+
+}  // namespace
+
+std::string fingerprintOfSecond(const Session& session, std::int64_t own, const fs::path& folder) {
+  if (folder.empty()) return {};
+  if (const auto record = recordOf(session, folder))
+    return record->id == own ? std::string() : Fingerprint().add(session.inputs(record->id).dump()).text();
+  static RationedAnswers trees;  // the list of steps asks at every change
+  return trees.about(folder, fingerprintOfTree);
 }
 
 }  // namespace spindrift

@@ -288,8 +288,8 @@ StepReport review(const TaskGraph& graph) {
   if (!seen.is_object()) return report(StepState::NotStarted, "Compare states, simulation and model side by side.");
   const std::vector<std::string> changed = changesOfInputs(seen, reviewedNow(graph));
   if (!changed.empty())
-    return report(StepState::Outdated, fmt::format("Changed since you looked: {}. Look again.", joined(changed)));
-  return report(StepState::Current, "You have looked at what there is.");
+    return report(StepState::Outdated, fmt::format("Changed since the review: {}. Review again.", joined(changed)));
+  return report(StepState::Current, "Comparison reviewed.");
 }
 
 std::size_t rowsOf(const Campaign& campaign, const char* list) {

@@ -135,7 +135,8 @@ const StoredResult* TaskGraph::latest(const std::string& kind) const {
 
 const StoredResult* TaskGraph::newestThatHolds(std::span<const StoredResult> results) const {
   if (results.empty()) return nullptr;
-  if (results.size() == 1) return &results.front();
+  const TaskKind* one = kind(results.front().kind);
+  if (results.size() == 1 || (one != nullptr && one->writes_files)) return &results.back();
   const auto found = std::find_if(results.rbegin(), results.rend(), [this](const StoredResult& r) { return holds(r); });
   return found == results.rend() ? &results.back() : &*found;
 }

@@ -52,6 +52,7 @@ struct TaskKind {
   int revision = 1;
   bool of_observations = false;  ///< works on observations: captures have to be evaluated first
   bool told = false;             ///< a report shows its result as it is, and says whether it still holds
+  bool writes_files = false;     ///< over those of its run before: no earlier result is there any more
   bool starts_programs = false;  ///< runs programs that a file names: only when somebody asks for this task itself
   /// Of tasks of one id the first whose answer is true, else the last.
   bool (*is_for)(const CampaignFacts&) = nullptr;

@@ -631,6 +631,7 @@ constexpr std::array kinds{
                       .add_inputs = Verify::addInputs}),
     declared<WriteReport>({.id = "report",
                            .title = "Writing the report",
+                           .writes_files = true,
                            .belongs = always,
                            .blocked = WriteReport::blocked,
                            .made_from = fromCaptures,

@@ -15,6 +15,7 @@
 
 #include "core/base/atomic_file.h"
 #include "core/base/error.h"
+#include "core/base/rationed_answers.h"
 #include "core/base/sha256.h"
 #include "core/session/fingerprint.h"
 #include "core/workflows/campaign_series.h"
@@ -181,9 +182,7 @@ void addNamedFiles(const nlohmann::json& node, const std::filesystem::path& fold
   if (std::filesystem::is_regular_file(folder / name, error)) files.insert(name);
 }
 
-}  // namespace
-
-std::string simulatorFingerprint(const std::filesystem::path& file) try {
+std::string fingerprintOfSimulator(const std::filesystem::path& file) try {
   Fingerprint fingerprint;
   fingerprint.addFile(file);
   // The scenario, the templates and the tables that it names belong to it.
@@ -194,6 +193,13 @@ std::string simulatorFingerprint(const std::filesystem::path& file) try {
   return fingerprint.text();
 } catch (const InputError&) {
   return {};
+}
+
+}  // namespace
+
+std::string simulatorFingerprint(const std::filesystem::path& file) {
+  static RationedAnswers simulators;  // the list of steps asks at every change, and a mesh may be large
+  return simulators.about(file, fingerprintOfSimulator);
 }
 
 NineParameterOptions NineParameterChoice::options() const {
@@ -233,6 +239,18 @@ IdentifyRequest ThermalChoice::request(const TimeSeries& series) const {
   if (const Signal* signal = series.find(r.output); signal != nullptr && isSparse(*signal)) r.method = "response";
   for (const std::string& name : inputs)
     if (series.find(name) != nullptr && name != r.output) r.inputs.push_back(name);
+  return r;
+}
+
+Iso230Request Iso230Choice::request(const TimeSeries& series) const {
+  Iso230Request r;
+  r.test = test.empty() ? standardTestIn(series) : test;
+  if (ambient && (ambient->empty() || series.find(*ambient) != nullptr)) {
+    r.ambient = *ambient;
+    r.without_ambient = ambient->empty();
+  }
+  if (series.find(speed) != nullptr) r.speed = speed;
+  if (!range.empty()) r.range = TimeRange::parse(range, "The range of the test");
   return r;
 }
 
@@ -278,6 +296,7 @@ ReportTaskOptions ReportTaskOptions::of(const Session& session, std::int64_t cam
   }
   options.effects = chosen<EffectOptions>(session, campaign);
   options.fit = chosen<NineParameterChoice>(session, campaign);
+  options.iso230 = chosen<Iso230Choice>(session, campaign);
   const auto kept = [&](const char* key) {
     return session.setting(campaignKey(key, campaign)).value_or(nlohmann::json());
   };

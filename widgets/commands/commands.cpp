@@ -65,13 +65,17 @@ OptionsCommand::OptionsCommand(SessionModel& session, const QString& text, const
   setText(text);
 }
 
+void OptionsCommand::put(const nlohmann::json& value) {
+  session_.setOption(key_, value);
+}
+
 void OptionsCommand::redo() {
-  session_.setSetting(key_, after_);
+  put(after_);
   if (changed_) changed_();
 }
 
 void OptionsCommand::undo() {
-  session_.setSetting(key_, before_);
+  put(before_);
   if (changed_) changed_();
 }
 
@@ -80,8 +84,12 @@ DraftCommand::DraftCommand(SessionModel& session, const QString& text, const std
     : OptionsCommand(session, text, session.draftKey(name), std::move(after), std::move(show)),
       place_(std::move(place)) {}
 
+void DraftCommand::put(const nlohmann::json& value) {
+  session_.setSetting(key_, value);
+}
+
 void DraftCommand::redo() {
-  session_.setSetting(key_, after_);
+  put(after_);
   if (std::exchange(done_, true) && changed_) changed_();
 }
 

@@ -41,7 +41,8 @@ class ReplaceExclusionCommand : public QUndoCommand {
   Entry before_, after_;
 };
 
-/// Changes what is kept in the session under `key`: the options of a step. `changed` tells the page.
+/// Changes what is kept in the session under `key`: the options of a step, so that every step that depends on them is
+/// judged anew. `changed` tells the page.
 class OptionsCommand : public QUndoCommand {
  public:
   OptionsCommand(SessionModel& session, const QString& text, const std::string& key, nlohmann::json after,
@@ -50,6 +51,8 @@ class OptionsCommand : public QUndoCommand {
   void undo() override;
 
  protected:
+  virtual void put(const nlohmann::json& value);
+
   SessionModel& session_;
   std::string key_;
   nlohmann::json before_, after_;
@@ -68,6 +71,9 @@ class DraftCommand : public OptionsCommand {
   bool mergeWith(const QUndoCommand* next) override;
 
  private:
+  /// No result depends on what is not applied.
+  void put(const nlohmann::json& value) override;
+
   std::string place_;
   bool done_ = false;
 };

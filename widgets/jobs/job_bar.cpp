@@ -84,7 +84,8 @@ JobBar::JobBar(JobRunner& runner, QWidget* parent) : QFrame(parent), runner_(run
               text = tr("%1: cancelled, nothing was changed").arg(title);
             }
             // What was only read to be shown does not hide what failed.
-            const bool only_shown = queue == JobQueue::Display && outcome != JobOutcome::Failed;
+            const bool read = queue == JobQueue::Display || queue == JobQueue::Reading;
+            const bool only_shown = read && outcome != JobOutcome::Failed;
             if (!only_shown || !failure_stands_) say({icon, tone, text});
             if (!runner_.title().isEmpty()) return;
             showSaid();

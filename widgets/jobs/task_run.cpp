@@ -100,11 +100,7 @@ class RunningChain : public std::enable_shared_from_this<RunningChain> {
         [self, pending, waiting] {
           if (self->session_.runsAlready(pending)) return;
           QObject::disconnect(*waiting);
-          if (self->session_.atHand(self->campaign_)) {
-            self->next();
-          } else if (self->ends_.cancelled) {
-            self->ends_.cancelled();
-          }
+          if (self->session_.atHand(self->campaign_)) self->next();
         },
         Qt::QueuedConnection);
   }

@@ -397,13 +397,17 @@ void SessionModel::setSetting(const std::string& key, const nlohmann::json& valu
   }
 }
 
+void SessionModel::setOption(const std::string& key, const nlohmann::json& value) {
+  setSetting(key, value);
+  Q_EMIT inputsChanged();
+}
+
 void SessionModel::noteReviewed() {
   if (session_ == nullptr || state_.campaign == nullptr) return;
   const std::string key = campaignKey(option_keys::reviewed);
   nlohmann::json now = reviewedNow(tasks());
   if (session_->setting(key) == now) return;
-  setSetting(key, now);
-  Q_EMIT inputsChanged();
+  setOption(key, now);
 }
 
 std::string SessionModel::warmStatementKey() const {

@@ -214,6 +214,8 @@ class SessionModel : public QObject {
 
   // Settings that belong to the session.
   void setSetting(const std::string& key, const nlohmann::json& value);
+  /// The same of something that results depend on: tells inputsChanged.
+  void setOption(const std::string& key, const nlohmann::json& value);
   [[nodiscard]] nlohmann::json setting(const std::string& key, const nlohmann::json& otherwise) const;
   /// The key of what is kept for the campaign at hand alone; and its value. Sessions of earlier versions kept some of
   /// it for all campaigns together: that stands where a campaign has nothing of its own.

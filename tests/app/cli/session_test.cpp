@@ -60,6 +60,18 @@ TEST(SessionCommand, SaysHowFarEveryStepIsAndWhatChanged) {
   answer = jsonOf({"session", place});
   EXPECT_EQ(stepOf(answer, "Calibrate").at("state"), "outdated");
   EXPECT_EQ(stepOf(answer, "Calibrate").at("changed"), nlohmann::json({"files of the campaign"}));
+  {
+    // The machine as it was edited in the window is the one that is judged.
+    Session session = Session::open(place);
+    const auto id = session.campaigns().front().id;
+    session.setSetting(Session::machineKey(id),
+                       nlohmann::json::parse(R"({"format":"spindrift-machine","version":1,"name":"edited",
+                           "chain":"V [w-X'-Y'-b-Z-t]","axes":[{"name":"X","travel_mm":[0,400]}],
+                           "points":[{"id":"P1","kind":"fiducial","x_mm":900,"y_mm":0,"z_mm":0}]})"));
+  }
+  answer = jsonOf({"session", place});
+  EXPECT_EQ(stepOf(answer, "Machine").at("state"), "attention") << stepOf(answer, "Machine");
+  EXPECT_THAT(stepOf(answer, "Machine").at("sentence").get<std::string>(), HasSubstr("P1"));
   expectBadInput({"session", place, "--campaign", "none"}, {"no campaign \"none\""});
   expectBadInput({"session", folder.path().string()}, {"is not a session"});
 }

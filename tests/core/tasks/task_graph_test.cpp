@@ -374,6 +374,25 @@ TEST(TaskGraph, TheSecondCampaignOfAVerificationIsAnInput) {
   EXPECT_THAT(s.status("verify").changed, ElementsAre("the second campaign"));
 }
 
+/// A search may go back to an earlier result; a report cannot: its file is that of the last one.
+TEST(TaskGraph, WhatIsWrittenOverAnEarlierOneDoesNotComeBack) {
+  TaskSession s;
+  s.run("evaluate");
+  s.option(option_keys::operator_name, "A");
+  s.run("fit");
+  s.run("report");
+  ASSERT_TRUE(s.status("report").current);
+  s.option(option_keys::operator_name, "B");
+  s.option(option_keys::nine_parameters, {{"state", "M2"}});
+  s.run("fit");
+  s.run("report");
+  ASSERT_TRUE(s.status("report").current);
+  s.option(option_keys::operator_name, "A");
+  s.option(option_keys::nine_parameters, nullptr);
+  EXPECT_TRUE(s.status("fit").current) << "the earlier model holds again";
+  EXPECT_FALSE(s.status("report").current) << "its file says B";
+}
+
 TEST(TaskGraph, ASecondCampaignElsewhereIsAnInputToo) {
   TaskSession s;
   s.run("evaluate");
@@ -382,6 +401,10 @@ TEST(TaskGraph, ASecondCampaignElsewhereIsAnInputToo) {
   s.run("verify");
   EXPECT_TRUE(s.status("verify").current);
   s.folder_.write("elsewhere/observations.csv", "corrected\n");
+  EXPECT_THAT(s.status("verify").changed, ElementsAre("the second campaign"));
+  s.run("verify");
+  ASSERT_TRUE(s.status("verify").current);
+  s.folder_.write("elsewhere/captures/images/M1.png", "another image");
   EXPECT_THAT(s.status("verify").changed, ElementsAre("the second campaign"));
 }
 

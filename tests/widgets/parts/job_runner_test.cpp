@@ -118,14 +118,16 @@ TEST(JobRunner, WhatWaitsIsToldWhenItWillNotBeBegun) {
 
 // A fit fails while a page reads what it shows: the sentence stays, however quickly or slowly the page is.
 TEST(JobRunner, WhatIsReadToBeShownDoesNotHideWhatFailed) {
-  for (const bool display_ends_last : {true, false}) {
+  for (const auto& [shown, display_ends_last] :
+       {std::pair{JobQueue::Display, true}, std::pair{JobQueue::Display, false}, std::pair{JobQueue::Reading, true},
+        std::pair{JobQueue::Reading, false}}) {
     JobRunner runner;
     JobBar bar(runner);
     bar.setMessage(QStringLiteral("opened"));
     std::promise<void> display_may_end, work_may_end;
     Job display;
     display.title = QStringLiteral("reading the points");
-    display.queue = JobQueue::Display;
+    display.queue = shown;
     display.work = [&](JobContext&) -> std::function<void()> {
       display_may_end.get_future().wait();
       return [] {};
@@ -140,7 +142,7 @@ TEST(JobRunner, WhatIsReadToBeShownDoesNotHideWhatFailed) {
     EXPECT_EQ(bar.message(), QStringLiteral("reading the points"));
     runner.run(std::move(work));
     (display_ends_last ? work_may_end : display_may_end).set_value();
-    const JobQueue first = display_ends_last ? JobQueue::Work : JobQueue::Display;
+    const JobQueue first = display_ends_last ? JobQueue::Work : shown;
     EXPECT_TRUE(QTest::qWaitFor([&] { return runner.firstOf(first).isEmpty(); }, 10000));
     (display_ends_last ? display_may_end : work_may_end).set_value();
     EXPECT_TRUE(QTest::qWaitFor([&] { return !runner.busy(); }, 10000));
@@ -151,7 +153,7 @@ TEST(JobRunner, WhatIsReadToBeShownDoesNotHideWhatFailed) {
     bar.leaveFailure();
     std::atomic<int> applied{0};
     Job next = counting(applied);
-    next.queue = JobQueue::Display;
+    next.queue = shown;
     runner.run(std::move(next));
     EXPECT_TRUE(QTest::qWaitFor([&] { return !runner.busy(); }, 10000));
     EXPECT_EQ(bar.message(), QStringLiteral("counting: done"));

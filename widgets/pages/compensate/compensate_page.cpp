@@ -47,7 +47,6 @@ CompensatePage::CompensatePage(PageContext page_context, QWidget* parent)
     : Page(std::move(page_context), StepId::Compensate, parent),
       places_([this] { refresh(); }),
       options_(session(), context().undo, [this] {
-        context().workflow.refresh();
         refresh();
         compute();
       }) {
@@ -329,6 +328,12 @@ void CompensatePage::compute() {
 
 void CompensatePage::exportFiles(const QString& folder) {
   if (!plan_) return;
+  if (const ResultState state = session().state(compensation_result); !state.current) {
+    callout()->show(Tone::Outdated,
+                    tr("No file was written. Changed since the compensation was calculated: %1.").arg(state.changed));
+    callout()->setAction(tr("Calculate again"), [this] { compute(); });
+    return;
+  }
   if (const std::string harm = plan_->harm(); !harm.empty()) {
     callout()->setAction({}, {});
     callout()->show(Tone::Bad, tr("No file was written. %1").arg(coreSentence(harm)));
@@ -352,7 +357,7 @@ std::vector<Exportable> CompensatePage::exportables() {
   if (!plan_) return items;
   items.push_back(exportableOf(tr("Corrections at the points"), points_));
   items.push_back(exportableOf(tr("Corrections on the machine"), view_));
-  if (!plan_->harm().empty()) return items;
+  if (!plan_->harm().empty() || !session().state(compensation_result).current) return items;
   for (const CompensationFile& f : plan_->files) {
     const QString name = QString::fromStdString(f.name);
     items.push_back({name.section(QLatin1Char('.'), 0, 0),

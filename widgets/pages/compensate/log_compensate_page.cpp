@@ -134,7 +134,7 @@ void LogCompensatePage::showResult() {
   plot_->setAxes(tr("Time / %1").arg(time.name), QStringLiteral("%1 / %2").arg(fromCore(r.output), unit));
   plot_->setContent({curve(tr("measured"), r.time_s, r.measured, time.seconds, 1),
                      curve(tr("correction"), r.result.time_s, r.result.outputs.front().compensation, time.seconds, 2),
-                     curve(tr("left"), r.time_s, r.left, time.seconds, 0)},
+                     curve(tr("residual"), r.time_s, r.left, time.seconds, 0)},
                     {{r.test.from_s / time.seconds, r.test.to_s / time.seconds, tr("test"), Tone::Accent}});
 }
 

@@ -95,7 +95,8 @@ Sentence verdictOf(const DiscrepancyStory& story) {
                    sizeText(story.gap.noise_um, QStringLiteral("um"))),
           Tone::Good};
     case DiscrepancyVerdict::Unknown:
-      return {added ? DiscrepancyPage::tr("Beside %1 something is missing that no effect of the catalogue explains.")
+      return {added ? DiscrepancyPage::tr(
+                          "In addition to %1 something is missing that no effect of the catalogue explains.")
                           .arg(names)
                     : DiscrepancyPage::tr("Something is missing that no effect of the catalogue explains."),
               left + (added ? gapSentence(story.gap)
@@ -118,7 +119,7 @@ Sentence verdictOf(const DiscrepancyStory& story) {
   }
   Sentence s;
   s.tone = Tone::Attention;
-  s.text = added ? DiscrepancyPage::tr("Beside %1 the simulation lacks: %2.").arg(names, missingEffects(story))
+  s.text = added ? DiscrepancyPage::tr("In addition to %1 the simulation lacks: %2.").arg(names, missingEffects(story))
                  : DiscrepancyPage::tr("The simulation lacks: %1.").arg(missingEffects(story));
   if (story.proposed) {
     DiscrepancyGap gap = *story.proposed;
@@ -321,7 +322,6 @@ void DiscrepancyPage::changeEffects(const QString& what, const EffectOptions& af
 }
 
 void DiscrepancyPage::effectsChanged() {
-  context().workflow.refresh();
   refresh();
 }
 
@@ -369,7 +369,6 @@ void DiscrepancyPage::knowTitles() {
 }
 
 void DiscrepancyPage::choiceChanged() {
-  context().workflow.refresh();
   refresh();
   // Undo does not wait: a search that was made with these effects before holds again.
   if (session().state(discrepancy_result).current) return;

@@ -49,10 +49,8 @@ void saveCopy(const std::filesystem::path& html, const std::filesystem::path& pd
 }  // namespace
 
 ReportPage::ReportPage(PageContext page_context, QWidget* parent)
-    : Page(std::move(page_context), StepId::Report, parent), options_(session(), context().undo, [this] {
-        context().workflow.refresh();
-        refresh();
-      }) {
+    : Page(std::move(page_context), StepId::Report, parent),
+      options_(session(), context().undo, [this] { refresh(); }) {
   browser_ = makeButton(tr("Open in browser"), "eye");
   save_html_ = makeButton(tr("HTML …"), "export");
   save_html_->setToolTip(tr("Save the report as one HTML file"));
@@ -261,7 +259,6 @@ void ReportPage::keepOperator() {
                                          session().campaignKey(option_keys::operator_name), name.toStdString(),
                                          [this, kept] {
                                            operator_->setText(kept());
-                                           context().workflow.refresh();
                                            refresh();
                                          }));
 }

@@ -141,10 +141,7 @@ void WarmUpPage::confirm() {
   context().undo.push(new OptionsCommand(
       session(), given ? tr("take back that the instrument was warm") : tr("state that the instrument was warm"),
       session().warmStatementKey(),
-      given ? nlohmann::json::object() : nlohmann::json{{"settled", true}, {"by", "operator"}}, [this] {
-        context().workflow.refresh();
-        refresh();
-      }));
+      given ? nlohmann::json::object() : nlohmann::json{{"settled", true}, {"by", "operator"}}, [this] { refresh(); }));
 }
 
 void WarmUpPage::readRecorded() {

@@ -247,7 +247,6 @@ void SimulationPanel::chooseSimulator(const QString& file) {
 
 void SimulationPanel::simulatorChanged() {
   refresh();
-  context_.workflow.refresh();  // a report tells of the one at hand
 }
 
 void SimulationPanel::fail(const QString& sentence) {

@@ -2,17 +2,21 @@
 // The compensation page in the real window: from a completed model to files, with the signs of FORMATS.md.
 #include "widgets/pages/compensate/compensate_page.h"
 
+#include <fmt/format.h>
+
 #include <QComboBox>
 #include <QFile>
 #include <QPushButton>
 #include <QTableView>
 #include <QTest>
+#include <filesystem>
 #include <sstream>
 
 #include "core/base/atomic_file.h"
 #include "core/base/error.h"
 #include "core/tasks/task_options.h"
 #include "tests/widgets/support/story_support.h"
+#include "widgets/commands/commands.h"
 #include "widgets/common/parts.h"
 #include "widgets/pages/discrepancy/discrepancy_page.h"
 #include "widgets/view3d/view3d.h"
@@ -103,6 +107,23 @@ TEST_F(CompensatePageTest, CorrectsWhatWasMeasuredAndWritesFiles) {
   EXPECT_EQ(forward, reverse);
   // A table as simulation knows only its points: the page says what the grid holds.
   EXPECT_FALSE(plan.limitation.empty());
+
+  // What does not hold any more is not given to the machine.
+  const Observation one = window_->session().observations()->rows.back();
+  window_->undoStack().push(new ExcludeCommand(
+      window_->session(),
+      {QString::fromStdString(fmt::format("{}/{}/{}", one.state, one.point, toString(one.component)))},
+      QStringLiteral("test")));
+  wait();
+  EXPECT_EQ(page_->callout()->tone(), Tone::Outdated);
+  const QString late = QString::fromStdString((folder_ / "late").string());
+  page_->exportFiles(late);
+  EXPECT_EQ(page_->callout()->tone(), Tone::Outdated) << page_->callout()->sentence().toStdString();
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "late"));
+  window_->undoStack().undo();
+  wait();
+  page_->exportFiles(late);
+  EXPECT_EQ(page_->callout()->tone(), Tone::Good) << page_->callout()->sentence().toStdString();
 }
 
 TEST_F(CompensatePageTest, FanucDirectionIsStatedKeptAndUndone) {

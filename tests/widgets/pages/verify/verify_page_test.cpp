@@ -11,6 +11,7 @@
 
 #include "core/base/random.h"
 #include "core/base/text.h"
+#include "core/tasks/task_options.h"
 #include "tests/widgets/support/page_test.h"
 #include "widgets/common/parts.h"
 #include "widgets/common/table_angle.h"
@@ -106,8 +107,10 @@ TEST_F(VerifyPages, BeforeAndAfterAreJudgedAgainstTheGoal) {
   EXPECT_EQ(page->points()->rows()[0].cells[2].text.toStdString(),
             withUncertainty(figures.rms, figures.rms_sigma, "um"));
   // A goal below what is left: outdated, and then not met.
+  ASSERT_EQ(window_->workflow().status(StepId::Verify).state, StepState::Current);
   page->goal()->setValue(0.5);
   EXPECT_EQ(page->callout()->tone(), Tone::Outdated);
+  EXPECT_EQ(window_->workflow().status(StepId::Verify).state, StepState::Outdated) << "the list of steps says the same";
   press();
   EXPECT_EQ(page->result()->verdict, VerifyVerdict::NotMet);
   EXPECT_EQ(page->callout()->tone(), Tone::Bad);
@@ -264,6 +267,20 @@ TEST_F(VerifyPages, ACampaignWithObservationsHasAModelOverTime) {
   }
   EXPECT_EQ(page->iso()->rows()->rowCount(), 2);
   EXPECT_FALSE(page->iso()->plot()->empty());
+  // What is chosen belongs to the campaign, and the report tells the same test.
+  const QString range = page->iso()->range()->text();
+  const auto told = [&] {
+    const ReportTaskOptions options =
+        ReportTaskOptions::of(*window_->session().session(), window_->session().campaignId());
+    return QString::fromStdString(options.iso230.range);
+  };
+  EXPECT_EQ(told(), range);
+  window_->undoStack().undo();
+  EXPECT_NE(page->iso()->range()->text(), range);
+  EXPECT_EQ(told(), page->iso()->range()->text());
+  window_->undoStack().redo();
+  EXPECT_EQ(page->iso()->range()->text(), range);
+  EXPECT_EQ(page->iso()->rows()->rowCount(), 2);
   if (qEnvironmentVariableIsSet("SPINDRIFT_PICTURES")) {
     auto* tabs = page->findChild<QTabWidget*>();
     for (int i = 0; i < tabs->count(); ++i) {
