@@ -543,13 +543,17 @@ QTableView* makeTable(QAbstractItemModel* model, const QString& accessible_name,
   table->verticalHeader()->setMinimumSectionSize(row_height);
   giveTableHabits(table);
   // Numbers stand beside the others, not at the far end of a wide table.
-  QObject::connect(model, &QAbstractItemModel::modelReset, table, [table] {
+  const auto settle_last = [table] {
     QHeaderView* titles = table->horizontalHeader();
     if (titles->count() > 0 && titles->sectionResizeMode(titles->count() - 1) == QHeaderView::ResizeToContents &&
-        table->stretched() < 0)
-      titles->setStretchLastSection(!table->holdsNumbers(titles->count() - 1));
+        table->stretched() < 0 && titles->stretchLastSection() == table->holdsNumbers(titles->count() - 1))
+      titles->setStretchLastSection(!titles->stretchLastSection());
+  };
+  QObject::connect(model, &QAbstractItemModel::modelReset, table, [table, settle_last] {
+    settle_last();
     table->updateGeometry();  // numbers ask for their width
   });
+  QObject::connect(model, &QAbstractItemModel::dataChanged, table, settle_last);
   // Narrower columns need more lines.
   QObject::connect(
       table->horizontalHeader(), &QHeaderView::sectionResized, table,

@@ -20,6 +20,7 @@
 #include "widgets/common/parts.h"
 #include "widgets/common/words.h"
 #include "widgets/export/exportable.h"
+#include "widgets/models/cells.h"
 #include "widgets/models/rows_model.h"
 
 namespace spindrift::gui {
@@ -267,6 +268,28 @@ TEST(WordsTest, NoLineEndsBetweenANumberAndItsUnit) {
   callout.show(Tone::Attention, QStringLiteral("the noise alone is 0.55 µm."));
   EXPECT_EQ(callout.sentence(), QStringLiteral("The noise alone is 0.55 µm."));
   EXPECT_NE(callout.findChild<WrappedLabel*>()->text().indexOf(QStringLiteral("0.55\u00a0µm")), -1);
+}
+
+/// The comparison of two states becomes one of four: the titles come first, the numbers below them later.
+TEST(TableOfNumbers, TheLastColumnStandsBesideTheOthersWhenThereAreMore) {
+  RowsModel model({QStringLiteral("Point"), QStringLiteral("1 / µm")});
+  const std::unique_ptr<QTableView> table(makeTable(&model, QStringLiteral("Points")));
+  const auto fill = [&](int numbers) {
+    std::vector<Row> rows(3);
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      rows[i].id = QStringLiteral("F%1").arg(i);
+      rows[i].cells = {nameCell(rows[i].id)};
+      for (int n = 0; n < numbers; ++n) rows[i].cells.push_back(numberCell(1.5 * n, 1));
+    }
+    QStringList titles{QStringLiteral("Point")};
+    for (int n = 1; n <= numbers; ++n) titles << QStringLiteral("%1 / µm").arg(n);
+    model.setHeaders(titles);
+    model.setRows(std::move(rows));
+  };
+  for (const int numbers : {1, 2, 4}) {
+    fill(numbers);
+    EXPECT_FALSE(table->horizontalHeader()->stretchLastSection()) << numbers;
+  }
 }
 
 }  // namespace

@@ -57,7 +57,7 @@ CycleModelPage::CycleModelPage(PageContext page_context, QWidget* parent)
   addAction(fit_);
 
   auto* left = new Card(tr("Errors over time"));
-  group_ = new Segments({tr("Displacements"), tr("Rotations"), tr("Growth")}, tr("Group of parameters"));
+  group_ = new Segments({tr("Displacements"), tr("Rotations"), tr("Expansion")}, tr("Group of parameters"));
   left->addToTitle(group_);
   trends_ = new Plot;
   trends_->setAxes(tr("Time / h"), tr("Displacement / µm"));
@@ -211,7 +211,7 @@ void CycleModelPage::showTrends() {
     }
     if (!s.x.empty()) series.push_back(std::move(s));
   }
-  const std::array<QString, 3> titles{tr("Displacement / µm"), tr("Rotation / µrad"), tr("Growth / µm/m")};
+  const std::array<QString, 3> titles{tr("Displacement / µm"), tr("Rotation / µrad"), tr("Expansion / (µm/m)")};
   trends_->setAxes(tr("Time / %1").arg(time.name), titles[static_cast<std::size_t>(group_->current())]);
   trends_->setContent(std::move(series));
   const int k = cycle_->currentIndex();

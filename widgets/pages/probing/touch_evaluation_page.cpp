@@ -92,10 +92,16 @@ TouchEvaluationPage::TouchEvaluationPage(PageContext page_context, QWidget* pare
   add(makeTable(lengths_, tr("Lengths"), tr("Distances and straightness appear after the evaluation.")), tr("Lengths"));
   comparison_verdict_ = new Callout;
   comparison_ = new RowsModel({}, this);
-  add(withVerdict(comparison_verdict_,
-                  makeTable(comparison_, tr("Comparison"),
-                            tr("Nothing to compare with: balls need three styli, a bar of holes its "
-                               "certificate or its expansion coefficient with a thermometer."))),
+  grown_ = new Plot;
+  grown_->setEmptyText(
+      tr("The expansion of the artefact will appear here"),
+      tr("Its temperature and its expansion coefficient say how much it expands from cycle to cycle."));
+  add(makeSplitter(nullptr,
+                   withVerdict(comparison_verdict_,
+                               makeTable(comparison_, tr("Comparison"),
+                                         tr("Nothing to compare with: balls need three styli, a bar of holes its "
+                                            "certificate or its expansion coefficient with a thermometer."))),
+                   grown_, 7, 6),
       tr("Comparison"));
   repeatability_verdict_ = new Callout;
   repeatability_ =
@@ -114,6 +120,7 @@ TouchEvaluationPage::TouchEvaluationPage(PageContext page_context, QWidget* pare
   add(reference_, tr("Reference"));
   content()->addWidget(tabs_, 1);
   showHints(plot_);
+  showHints(grown_);
   connect(evaluate_, &QPushButton::clicked, this, [this] { runTask("evaluate"); });
   connect(cycle_, &QComboBox::activated, this, &TouchEvaluationPage::showFeatures);
   connect(point_, &QComboBox::activated, this, &TouchEvaluationPage::showDeviations);
@@ -128,6 +135,7 @@ TaskInputs TouchEvaluationPage::taskInputs() {
 void TouchEvaluationPage::clear() {
   for (RowsModel* rows : {features_, left_out_, lengths_, comparison_, repeatability_, health_}) rows->setRows({});
   plot_->setContent({});
+  grown_->setContent({});
   cycle_->clear();
   point_->clear();
   comparison_verdict_->set(Tone::Neutral, {});
@@ -299,7 +307,7 @@ void TouchEvaluationPage::showLengths() {
     }
   } else {
     lengths_->setHeaders(
-        {tr("Balls"), tr("Cycle"), tr("Stylus"), tr("Error / µm"), tr("Certified / mm"), tr("Verdict")});
+        {tr("Balls"), tr("Cycle"), tr("Stylus"), tr("Error / µm"), tr("Calibrated / mm"), tr("Verdict")});
     tabs_->setTabText(2, tr("Distances"));
     for (const BallDistance& d : details_.touches->ball_cycles.front().distances) {
       Row row;
@@ -327,12 +335,17 @@ void TouchEvaluationPage::showComparison() {
   if (!details_.touches->hole_cycles.empty()) {
     const HoleCycleResult& holes = details_.touches->hole_cycles.front();
     tabs_->setTabText(3, tr("Certificate"));
+    grown_->show();
+    const TimeUnit time = timeUnit(holes.cycle_time_s.empty() ? 0.0 : holes.cycle_time_s.back());
+    Series expected{tr("coefficient × temperature")};
+    Series touched{tr("touches")};
+    touched.colour = 1;
     // A bar without certified positions has nothing to show against them.
     const bool any_certified = !holes.against_certificate.empty();
     QStringList headers{tr("Cycle")};
     if (any_certified)
       headers << tr("Bar / °C") << tr("%1 against certificate / (µm/m)").arg(fromCore(holes.setup.linear));
-    headers << tr("Growth, coefficient × temperature / (µm/m)") << tr("Growth, touches / (µm/m)");
+    headers << tr("Expansion, coefficient × temperature / (µm/m)") << tr("Expansion, touches / (µm/m)");
     comparison_->setHeaders(headers);
     for (const std::string& cycle : holes.cycles) {
       const auto lengths = std::find_if(holes.against_certificate.begin(), holes.against_certificate.end(),
@@ -342,6 +355,14 @@ void TouchEvaluationPage::showComparison() {
       const bool certified = lengths != holes.against_certificate.end();
       const bool grown = growth != holes.growth.end();
       if (!certified && !grown) continue;
+      if (grown) {
+        const auto k = static_cast<std::size_t>(&cycle - holes.cycles.data());
+        for (Series* series : {&expected, &touched}) series->x.push_back(holes.cycle_time_s[k] / time.seconds);
+        expected.y.push_back(growth->expected_um_per_m);
+        expected.sigma.push_back(growth->expected_sigma_um_per_m);
+        touched.y.push_back(growth->measured_um_per_m);
+        touched.sigma.push_back(growth->measured_sigma_um_per_m);
+      }
       Row row;
       row.id = fromCore(cycle);
       row.cells = {nameCell(row.id)};
@@ -356,6 +377,8 @@ void TouchEvaluationPage::showComparison() {
                                 : dashCell());
       rows.push_back(std::move(row));
     }
+    grown_->setAxes(tr("Time / %1").arg(time.name), tr("Expansion / (µm/m)"));
+    grown_->setContent(expected.x.empty() ? std::vector<Series>{} : std::vector<Series>{expected, touched});
     if (rows.empty()) {
       comparison_verdict_->set(Tone::Neutral, {});
     } else {
@@ -369,6 +392,7 @@ void TouchEvaluationPage::showComparison() {
     }
   } else {
     tabs_->setTabText(3, tr("Closed forms"));
+    grown_->hide();
     comparison_->setHeaders({tr("Cycle"), tr("Ball"), tr("Closed forms X, Y, Z / µrad"),
                              tr("Joint evaluation X, Y, Z / µrad"), tr("Stylus 0 moved / µm"), tr("Joint drift / µm")});
     double off_urad = 0.0;
@@ -503,6 +527,7 @@ std::vector<Exportable> TouchEvaluationPage::exportables() {
                                 exportableOf(tr("Repeatability"), repeatability_),
                                 exportableOf(tr("Health of the probe"), health_)};
   if (!plot_->empty()) items.push_back(exportableOf(tr("Deviation over time"), plot_));
+  if (!grown_->empty()) items.push_back(exportableOf(tr("Expansion of the artefact"), grown_));
   for (Exportable& item : reference_->exportables()) items.push_back(std::move(item));
   return items;
 }

@@ -69,6 +69,7 @@ class TouchEvaluationPage : public Page {
   Callout* health_verdict_;
   ReferencePanel* reference_;
   Plot* plot_;
+  Plot* grown_;  ///< what the artefact expands, against its temperature
 };
 
 }  // namespace spindrift::gui

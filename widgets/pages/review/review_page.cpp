@@ -130,7 +130,7 @@ ReviewPage::ReviewPage(PageContext page_context, QWidget* parent)
   section_->setEmptyText(tr("A section will appear here"), tr("Let a pane show a model, or points near the line."));
   section_column->addWidget(section_, 1);
   tabs->addTab(section_tab, tr("Section"));
-  content()->addWidget(makeSplitter(this, left, tabs, 13, 7), 1);
+  content()->addWidget(makeSplitter(this, left, tabs, 16, 6), 1);
   layOutPanes();
 
   connect(count_, &Segments::chosen, this, [this] {
@@ -296,8 +296,7 @@ void ReviewPage::sayWhatIsOutdated() {
     if (source == nullptr || source->changed.empty()) continue;
     QStringList changed;
     for (const std::string& what : source->changed) changed << coreSentence(what);
-    told << tr("%1 is shown as it was worked out before. Changed since: %2.")
-                .arg(source->name, changed.join(QStringLiteral(", ")));
+    told << tr("%1: earlier result. Changed since: %2.").arg(source->name, changed.join(QStringLiteral(", ")));
   }
   if (told.isEmpty()) {
     callout()->set(Tone::Neutral, {});

@@ -41,7 +41,10 @@ NextPanel::NextPanel(QWidget* parent) : QWidget(parent) {
   left->body()->addWidget(gain_);
   times_ = new RowsModel({tr("Time / s"), tr("Point"), tr("Program")}, this);
   left->body()->addStretch(1);
+  planned_ = left;
   auto* right = new Card(tr("How it was found"));
+  nothing_ = new Callout;
+  right->body()->addWidget(nothing_);
   leftover_ = new Callout;
   right->body()->addWidget(leftover_);
   steps_ = new RowsModel({tr("Effect tried"), tr("Decision"), tr("Gain in BIC"), tr("Why")}, this);
@@ -84,9 +87,9 @@ void NextPanel::show(const std::shared_ptr<const DiscrepancyStory>& story) {
         reason.text = tr("with it too something remains that no effect explains");
       }
       reason.tip = reason.text;
-      const Cell decision = out_again    ? Cell{tr("out again"), Tone::Neutral, "undo"}
-                            : s.accepted ? Cell{tr("in"), Tone::Good, "check-circle"}
-                                         : Cell{tr("not"), Tone::Neutral, "exclude"};
+      const Cell decision = out_again    ? Cell{tr("removed"), Tone::Neutral, "undo"}
+                            : s.accepted ? Cell{tr("added"), Tone::Good, "check-circle"}
+                                         : Cell{tr("not added"), Tone::Neutral, "exclude"};
       row.cells = {name, decision, gain, reason};
       rows.push_back(std::move(row));
     }
@@ -146,11 +149,15 @@ void NextPanel::showSuggestion() {
         tr("No effect of the catalogue fits, so there are no rivals to distinguish. Log what else happens at the "
            "machine (hydraulics, pumps, doors, neighbours) at the times of the disagreement, and measure again."));
   } else if (story_->verdict == DiscrepancyVerdict::None) {
-    suggestion_->setText(tr("Nothing: measured and simulated agree."));
+    suggestion_->setText(tr("Nothing to measure next: measured and simulated agree."));
   } else {
-    suggestion_->setText(tr("Nothing: no rival fits as well as the named effect."));
+    suggestion_->setText(tr("Nothing to measure next: no rival fits as well as the named effect."));
   }
   times_->setRows(std::move(rows));
+  // A plan has a card of its own; one sentence needs none.
+  const bool planned = story_ != nullptr && story_->suggestion.has_value();
+  planned_->setVisible(planned);
+  nothing_->set(Tone::Neutral, planned ? QString() : suggestion_->text());
 }
 
 std::vector<Exportable> NextPanel::exportables() {

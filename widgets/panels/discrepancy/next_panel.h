@@ -27,6 +27,8 @@ class NextPanel : public QWidget {
  private:
   void showSuggestion();
 
+  QWidget* planned_;  ///< card of what to measure, where there is a plan
+  Callout* nothing_;  ///< why there is none
   QLabel* suggestion_;
   NumberTile* gain_;
   RowsModel* times_;
