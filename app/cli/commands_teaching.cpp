@@ -133,7 +133,7 @@ void addTeachingCommands(CLI::App& app, CommandLine& line) {
   CLI::App* what_if = addCommand(
       app, line, "what-if",
       "Set geometric errors and thermal effects of a machine, and show what they do to probing points, artefacts and a "
-      "milled test part",
+      "milled test piece",
       [what](JobContext&) { return whatIf(*what); });
   what_if->add_option("CAMPAIGN", what->campaign, "Campaign folder of the machine; default: a standard machine");
   what_if->add_option("--machine", what->machine, "Machine (machine.json), in place of a campaign")->type_name("FILE");
@@ -144,7 +144,7 @@ void addTeachingCommands(CLI::App& app, CommandLine& line) {
       ->allow_extra_args(false)
       ->type_name("NAME=VALUE");
   what_if->add_flag("--list", what->list, "List all parameters with unit, range, driver and sensitivity");
-  what_if->add_option("--svg", what->svg, "Picture of the test part with its deviations exaggerated")
+  what_if->add_option("--svg", what->svg, "Picture of the test piece with its deviations exaggerated")
       ->type_name("FILE");
   what_if->add_option("--png", what->png, "The same as PNG")->type_name("FILE");
 

@@ -28,7 +28,7 @@ CompensationChannel::CompensationChannel(const ChannelLimits& limits) : limits_(
 void CompensationChannel::begin(const Eigen::Vector3d& applied_um, double now_s) {
   written_um_ = applied_um;
   last_s_ = now_s;
-  reason_ = "waits for the first wish";
+  reason_ = "waiting for the first set value";
 }
 
 Eigen::Vector3d CompensationChannel::next(const Wish& wish, const ControlState& state, double now_s) {

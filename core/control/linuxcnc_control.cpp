@@ -266,7 +266,8 @@ void LinuxcncControl::openChannel(bool hold_when_silent) {
   hal_.setPin("watchdog.enable-in", "1");
   const double until = steadySeconds() + 1.0;
   while (!compensate(now.applied_um).watched) {
-    if (steadySeconds() > until) throw ConnectionError(fmt::format("The watchdog of {} does not hear us.", name()));
+    if (steadySeconds() > until)
+      throw ConnectionError(fmt::format("The watchdog of {} does not receive the heartbeat.", name()));
     nap(20);
   }
 }

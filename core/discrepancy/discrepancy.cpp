@@ -228,8 +228,8 @@ std::string sentenceOf(const DiscrepancyResult& result, const DiscrepancyOptions
                                       : "Measurement and simulation differ by no more than a rough simulation may be "
                                         "off by; nothing is missing beyond that.";
     case DiscrepancyVerdict::Unknown:
-      return options.max_effects == 0 ? "Something disagrees; no effect was tried."
-                                      : "Something disagrees that no effect of the catalogue explains.";
+      return options.max_effects == 0 ? "Measurement and simulation differ; no effect was tried."
+                                      : "Measurement and simulation differ; no effect of the catalogue explains it.";
     case DiscrepancyVerdict::Named:
     case DiscrepancyVerdict::Ambiguous:
       break;

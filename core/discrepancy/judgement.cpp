@@ -612,9 +612,9 @@ Judgement judge(const ResidualProblem& problem, const EffectSearch& search, cons
       unseen += std::max(0.0, slot.probability - (shown == slot.others.end() ? 0.0 : shown->probability));
       if (std::find(name.rivals.begin(), name.rivals.end(), other.id) != name.rivals.end()) continue;
       name.rivals.push_back(other.id);
-      out.warnings.push_back(
-          fmt::format("{} cannot be told from {}, because the log lacks what drives the latter: log it next time.",
-                      effect.id, other.id));
+      out.warnings.push_back(fmt::format(
+          "{} cannot be distinguished from {}, because the log lacks what drives the latter: log it next time.",
+          effect.id, other.id));
     }
     name.confidence = std::clamp(slot.probability * claim[t] / (1.0 + unseen), 0.01, 1.0 - priors.unforeseen);
     if (name.forced && !(slot.delta_evidence > 0.0)) {

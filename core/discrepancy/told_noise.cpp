@@ -81,7 +81,7 @@ void tellScales(const ResidualProblem& problem, DiscrepancyResult& result) {
     if (std::find(beyond.begin(), beyond.end(), c) == beyond.end()) tellDrift(c, n, result.warnings);
     if (scale >= 0.8 && scale <= 1.25) continue;
     const int decimals = std::clamp(1 - static_cast<int>(std::floor(std::log10(scale))), 0, 9);  // two digits count
-    result.warnings.push_back(fmt::format("{} scatters {:.{}f} times as much as its stated sigma; it is used as found.",
+    result.warnings.push_back(fmt::format("{} scatters {:.{}f} times as much as its stated σ; it is used as found.",
                                           toString(c), scale, decimals));
   }
 }

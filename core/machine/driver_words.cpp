@@ -296,7 +296,9 @@ std::string gainUnit(std::string_view unit) {
 std::string parameterTitle(std::string_view name) {
   const NameWithUnit parts(name, false);
   if (!parts.hasUnit()) return words(name);
-  return fmt::format("{} / {}", fmt::join(parts.title, " "), parts.unit());
+  const std::string unit = parts.unit();
+  const bool composed = unit.find('/') != std::string::npos;
+  return fmt::format("{} / {}", fmt::join(parts.title, " "), composed ? "(" + unit + ")" : unit);
 }
 
 std::string spanOfTime(double seconds) {

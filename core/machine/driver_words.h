@@ -37,7 +37,7 @@ struct SignalTitle {
 /// Unit of a gain: "um_per_m2" -> "µm/m²", "um_per_m_lift" -> "µm/m"; one that is written with signs ("um/mm") too.
 [[nodiscard]] std::string gainUnit(std::string_view unit);
 
-/// "gain_um_per_m2_per_K" -> "gain / µm/(m² K)", "tau_on_s" -> "time constant on / s": parameters of effects.
+/// "gain_um_per_m2_per_K" -> "gain / (µm/(m² K))", "tau_on_s" -> "time constant on / s": parameters of effects.
 [[nodiscard]] std::string parameterTitle(std::string_view name);
 
 /// "45 s", "40 min", "2.5 h".

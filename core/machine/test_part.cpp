@@ -105,7 +105,7 @@ TestPartOptions TestPartOptions::on(const MachineDescription& machine) {
 
 void TestPartOptions::validate() const {
   const auto reject = [](const char* field, double value, const char* allowed) {
-    throw InputError(fmt::format("test part: {} = {:g}; allowed: {}.", field, value, allowed));
+    throw InputError(fmt::format("test piece: {} = {:g}; allowed: {}.", field, value, allowed));
   };
   if (!(side_mm > 0.0) || !std::isfinite(side_mm)) reject("side_mm", side_mm, "greater than zero");
   if (!(height_mm > 0.0) || !std::isfinite(height_mm)) reject("height_mm", height_mm, "greater than zero");

@@ -66,7 +66,7 @@ void equipmentTable(Report& document, const MachineDescription& machine) {
     number("hole_diameter_mm", "holes of", "mm");
     number("radius_mm", "radius", "mm");
     number("expansion_um_per_m_K", "expansion", "µm/(m K)");
-    number("temperature_degC", "certified at", "°C");
+    number("temperature_degC", "calibrated at", "°C");
     number("certificate_uncertainty_um", "uncertainty of the certificate", "µm");
     const std::string extra = joinedFacts(extraFacts(item, known));
     rows.push_back({item.value("id", item.value("name", kind)), kind, properties.empty() ? "not stated" : properties,

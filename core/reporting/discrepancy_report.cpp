@@ -133,7 +133,7 @@ void addEffect(Report& document, const FoundEffect& effect, bool user_adds, bool
       percentText(effect.confidence), effect.delta_bic, held_out ? "held-out data" : "blocks left out in turn",
       effect.heldout_rms_before_um, effect.heldout_rms_after_um));
   if (!effect.rivals.empty()) {
-    document.callout(CalloutKind::Attention, withEffectTitles(fmt::format("These data cannot tell it from {}.",
+    document.callout(CalloutKind::Attention, withEffectTitles(fmt::format("These data cannot distinguish it from {}.",
                                                                           joinedList(effect.rivals, "or"))));
   }
   std::vector<ReportRow> rows;

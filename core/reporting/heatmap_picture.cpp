@@ -316,8 +316,8 @@ void draw(Drawing& canvas, const HeatmapLayout& l, const Field& field, const Hea
   canvas.text(16.0, 28.0, title, 18.0, TextAnchor::Start, true);
   if (!options.subtitle.empty()) canvas.text(16.0, 48.0, options.subtitle, 12.0, TextAnchor::Start);
   if (!options.legend) return;
-  const std::array<std::string_view, 3> legend{"pale: smaller than 2 sigma", "hatched: outside the measured points",
-                                               "hollow point: not fitted"};
+  const std::array<std::string_view, 3> legend{"pale: below 2 standard uncertainties",
+                                               "hatched: outside the measured points", "hollow point: not fitted"};
   double whole = 0.0;
   for (const std::string_view entry : legend) whole += 6.6 * static_cast<double>(entry.size()) + 24.0;
   const bool two_lines = whole > l.picture_width - 16.0;

@@ -307,7 +307,7 @@ void addCertificate(Report& document, const nlohmann::json& artefact) {
   if (rows.size() > most_rows) rows.erase(rows.begin() + most_rows, rows.end());
   if (!rows.empty())
     document.table({"Cycle", "Artefact / °C", "Slope of the axis / (µm/m)", "Chi-squared of"}, rows,
-                   "Axis against the certified distances at the temperature of the artefact; uncertainty of touches, "
+                   "Axis against the calibrated distances at the temperature of the artefact; uncertainty of touches, "
                    "certificate, coefficient and temperature");
   rows.clear();
   for (const nlohmann::json& g : artefact.value("growth_expected", nlohmann::json::array())) {
@@ -317,8 +317,8 @@ void addCertificate(Report& document, const nlohmann::json& artefact) {
   if (!rows.empty())
     document.table({"Cycle", "Coefficient and temperature / (µm/m)", "Touches alone / (µm/m)"}, rows,
                    artefact.value("growth_combined", false)
-                       ? "Growth of the artefact; EME combines both by their uncertainties"
-                       : "Growth of the artefact; EME rests on the touches alone");
+                       ? "Expansion of the artefact; EME combines both by their uncertainties"
+                       : "Expansion of the artefact; EME rests on the touches alone");
 }
 
 /// Scans whose surface has changed its shape: how much, and what that leaves open of the motion.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A milled test part as a figure: every contour as it should be and, exaggerated, as the machine left it. Seen from
+// A milled test piece as a figure: every contour as it should be and, exaggerated, as the machine left it. Seen from
 // above, X to the right, Y up. Deviations are drawn from datum C, the bore in the middle: where the whole part lies is
 // no error of it.
 #pragma once

@@ -258,8 +258,8 @@ Drawing ReplayResult::diagram() const {
   const double last_h = time_s.back() / 3600.0;
   for (std::size_t e = 0; e < errors.size(); ++e) {
     PlotSeries measured{"uncompensated", {}, {}, {}, SeriesStyle::Points};
-    PlotSeries fixed{"left by static", {}, {}, {}, SeriesStyle::Line};
-    PlotSeries adaptive{"left by adaptive", {}, {}, {}, SeriesStyle::Line};
+    PlotSeries fixed{"residual, static", {}, {}, {}, SeriesStyle::Line};
+    PlotSeries adaptive{"residual, adaptive", {}, {}, {}, SeriesStyle::Line};
     const std::size_t stride = std::max<std::size_t>(1, time_s.size() / 6000);
     double zero = std::nan("");
     for (std::size_t r = 0; r < time_s.size(); ++r) {

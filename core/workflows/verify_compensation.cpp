@@ -91,8 +91,8 @@ void rejectSameData(const ObservationSet& after, VerifyResult& result) {
   const std::size_t all = result.points.size();
   if (equal == all && equal >= telling_values) {
     throw InputError({after.file, ""},
-                     fmt::format("all {} values are the same as before: it is the same measurement; allowed: the same "
-                                 "plan measured again with the compensation on.",
+                     fmt::format("all {} values equal those before compensation; allowed: the same plan measured "
+                                 "again with the compensation on.",
                                  all));
   }
   if (equal < telling_values && equal < all) return;

@@ -544,7 +544,7 @@ std::string whatIfText(const WhatIf& what_if) {
     for (const WhatIfPlace& place : artefact.features) row(place.id, place);
   }
   if (what_if.part() == nullptr) return out + "\n" + what_if.whyNoPart() + "\n";
-  out += fmt::format("\nTest part of the kind of ISO 10791-7, side {:g} mm\n", what_if.part()->options().side_mm);
+  out += fmt::format("\nTest piece of the kind of ISO 10791-7, side {:g} mm\n", what_if.part()->options().side_mm);
   for (const PartCharacteristic& c : found.part)
     out += fmt::format("  {:<52}{:>10.2f} {}\n", characteristicText(c), printed(c.value), printedUnit(c.unit));
   return out;

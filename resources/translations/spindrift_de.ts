@@ -395,11 +395,11 @@
     </message>
     <message>
         <source>discrepancy</source>
-        <translation>Abweichung</translation>
+        <translation>Diskrepanz</translation>
     </message>
     <message>
         <source>verify</source>
-        <translation>Überprüfung</translation>
+        <translation>Verifizierung</translation>
     </message>
 </context>
 <context>
@@ -1153,10 +1153,6 @@
         <translation>Eingetragen von</translation>
     </message>
     <message>
-        <source>Environmental variation (ETVE), µm or µrad</source>
-        <translation>Umgebungsbedingte Abweichung (ETVE), µm oder µrad</translation>
-    </message>
-    <message>
         <source>Evaluate the captures first (Calibrate).</source>
         <translation>Zuerst die Aufnahmen auswerten (Kalibrieren).</translation>
     </message>
@@ -1171,10 +1167,6 @@
     <message>
         <source>Evaluate the touches.</source>
         <translation>Die Antastungen auswerten.</translation>
-    </message>
-    <message>
-        <source>Expansion between both ends, axis {}</source>
-        <translation>Ausdehnung zwischen beiden Enden, Achse {}</translation>
     </message>
     <message>
         <source>Facets of the STL: found {} mm; allowed: {:.3g} to {:.3g} mm for this artefact.</source>
@@ -1549,10 +1541,6 @@
         <translation>Punkt {} von {} ist nicht endlich ({}, {}, {}); zulässig: endliche Koordinaten in mm.</translation>
     </message>
     <message>
-        <source>Rotating spindle, µm or µrad</source>
-        <translation>Drehende Spindel, µm oder µrad</translation>
-    </message>
-    <message>
         <source>Run the compensator over the log.</source>
         <translation>Den Kompensator über das Protokoll laufen lassen.</translation>
     </message>
@@ -1587,14 +1575,6 @@
     <message>
         <source>Slurm has not answered for {:.0f} min (squeue). Nothing is lost: batch resume {} --engine slurm goes on.</source>
         <translation>Slurm antwortet seit {:.0f} min nicht (squeue). Nichts ist verloren: batch resume {} --engine slurm setzt fort.</translation>
-    </message>
-    <message>
-        <source>Something disagrees that no effect of the catalogue explains.</source>
-        <translation>Es besteht ein Unterschied, den kein Effekt des Katalogs erklärt.</translation>
-    </message>
-    <message>
-        <source>Something disagrees; no effect was tried.</source>
-        <translation>Es besteht ein Unterschied; kein Effekt wurde geprüft.</translation>
     </message>
     <message>
         <source>Something is missing, and no effect of the catalogue explains it.</source>
@@ -1699,10 +1679,6 @@
     <message>
         <source>The campaign {} of {} starts at {}, which is {:.0f} s after the clock of the plant store; set the clock of the computer that measured right, or start_utc in campaign.json. Nothing was stored.</source>
         <translation>Die Kampagne {} von {} beginnt um {}, das ist {:.0f} s nach der Uhr der Werksdatenbank; die Uhr des messenden Rechners richtig stellen oder start_utc in campaign.json. Nichts wurde gespeichert.</translation>
-    </message>
-    <message>
-        <source>The certified place of {}</source>
-        <translation>Die zertifizierte Lage von {}</translation>
     </message>
     <message>
         <source>The circle of the pocket must be four numbers x,y,z,r (mm).</source>
@@ -1866,7 +1842,7 @@
     </message>
     <message>
         <source>The linear scale warms with the room and grows away from its datum; the axis follows the scale.</source>
-        <translation>Das Längenmesssystem erwärmt sich mit dem Raum und dehnt sich von seinem Nullpunkt weg aus; die Achse folgt dem Maßstab.</translation>
+        <translation>Das Längenmesssystem erwärmt sich mit dem Raum und dehnt sich von seinem Nullpunkt weg aus; die Achse folgt dem Längenmesssystem.</translation>
     </message>
     <message>
         <source>The log has a gap of {:.0f} s after {:.0f} s: what the machine did in it is not known, and {} observations between {:.0f} s and {:.0f} s, until its heat has gone, are not compared.</source>
@@ -2247,10 +2223,6 @@
     <message>
         <source>The virtual scan {} sees no surface.</source>
         <translation>Der virtuelle Scan {} sieht keine Fläche.</translation>
-    </message>
-    <message>
-        <source>The watchdog of {} does not hear us.</source>
-        <translation>Die Überwachung (Watchdog) von {} hört uns nicht.</translation>
     </message>
     <message>
         <source>The width of a cell must not be negative (mm).</source>
@@ -2824,7 +2796,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>a scale</source>
-        <translation>ein Maßstab</translation>
+        <translation>ein Längenmesssystem</translation>
     </message>
     <message>
         <source>a secret stands in the file; allowed: &quot;password_env&quot; (a variable of the environment) or &quot;password_file&quot; (a file that only its owner can read).</source>
@@ -3001,10 +2973,6 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>all readings were taken at one position; allowed: two positions near the ends of travel.</source>
         <translation>alle Messwerte wurden an einer Position aufgenommen; zulässig: zwei Positionen nahe den Enden des Verfahrwegs.</translation>
-    </message>
-    <message>
-        <source>all {} values are the same as before: it is the same measurement; allowed: the same plan measured again with the compensation on.</source>
-        <translation>alle {} Werte sind dieselben wie zuvor: es ist dieselbe Messung; zulässig: derselbe Plan, mit eingeschalteter Kompensation erneut gemessen.</translation>
     </message>
     <message>
         <source>along ({:.2f}, {:.2f}, {:.2f})</source>
@@ -3808,7 +3776,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>expansion of the %1 scale</source>
-        <translation>Ausdehnung des Maßstabs %1</translation>
+        <translation>Ausdehnung des Längenmesssystems %1</translation>
     </message>
     <message>
         <source>expansion of the artefact</source>
@@ -3916,11 +3884,11 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>fit / %</source>
-        <translation>Fit / %</translation>
+        <translation>Anpassungsgüte / %</translation>
     </message>
     <message>
         <source>fit against the interval</source>
-        <translation>Fit gegen das Intervall</translation>
+        <translation>Anpassungsgüte gegen das Intervall</translation>
     </message>
     <message>
         <source>fit of the residual</source>
@@ -4733,14 +4701,6 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>left aside</source>
         <translation>beiseitegelegt</translation>
-    </message>
-    <message>
-        <source>left by adaptive</source>
-        <translation>Rest, adaptiv</translation>
-    </message>
-    <message>
-        <source>left by static</source>
-        <translation>Rest, statisch</translation>
     </message>
     <message>
         <source>left no {} (the log ends with &quot;{}&quot;)</source>
@@ -5628,19 +5588,19 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>scale of X</source>
-        <translation>Maßstab von X</translation>
+        <translation>Längenmesssystem von X</translation>
     </message>
     <message>
         <source>scale of Y</source>
-        <translation>Maßstab von Y</translation>
+        <translation>Längenmesssystem von Y</translation>
     </message>
     <message>
         <source>scale of Z</source>
-        <translation>Maßstab von Z</translation>
+        <translation>Längenmesssystem von Z</translation>
     </message>
     <message>
         <source>scale {}</source>
-        <translation>Maßstab {}</translation>
+        <translation>Längenmesssystem {}</translation>
     </message>
     <message>
         <source>scanning artefacts</source>
@@ -6651,10 +6611,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>der Zeitversatz von {} hat keine Zahl offset_s.</translation>
     </message>
     <message>
-        <source>the touch does not print which feature and stylus it belongs to</source>
-        <translation>die Antastung druckt nicht, zu welchem Merkmal und Tastereinsatz sie gehört</translation>
-    </message>
-    <message>
         <source>the touch does not reach the artefact</source>
         <translation>die Antastung erreicht den Prüfkörper nicht</translation>
     </message>
@@ -7047,10 +7003,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Warten auf die Werksdatenbank</translation>
     </message>
     <message>
-        <source>waits for the first wish</source>
-        <translation>wartet auf den ersten Sollwert</translation>
-    </message>
-    <message>
         <source>warm at the start</source>
         <translation>zu Beginn warm</translation>
     </message>
@@ -7321,10 +7273,6 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>{} cannot be started: {}.</source>
         <translation>{} lässt sich nicht starten: {}.</translation>
-    </message>
-    <message>
-        <source>{} cannot be told from {}, because the log lacks what drives the latter: log it next time.</source>
-        <translation>{} ist von {} nicht unterscheidbar, weil dem Protokoll fehlt, was letzteren antreibt: beim nächsten Mal aufzeichnen.</translation>
     </message>
     <message>
         <source>{} cannot be written: {}.</source>
@@ -8103,10 +8051,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>{} {} der Messmarke {} in Zustand {} doppelt, zuerst in {}; zulässig: je eine Zeile.</translation>
     </message>
     <message>
-        <source>{} {} read at one point only: whether the state was shifted or the point moved cannot be told there.</source>
-        <translation>{} {} nur an einem Punkt abgelesen: ob der Zustand verschoben war oder der Punkt sich bewegte, lässt sich dort nicht sagen.</translation>
-    </message>
-    <message>
         <source>{} {} says &quot;{}&quot;, which is neither a number nor among &quot;values&quot; of column {}.</source>
         <translation>{} {} liefert „{}“, das weder eine Zahl ist noch unter &quot;values&quot; der Spalte {} steht.</translation>
     </message>
@@ -8690,7 +8634,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>temperature rise of the scale</source>
-        <translation>Temperaturanstieg des Maßstabs</translation>
+        <translation>Temperaturanstieg des Längenmesssystems</translation>
     </message>
     <message>
         <source>temperature rise of the spindle</source>
@@ -8703,10 +8647,6 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>temperature rise of the table drive</source>
         <translation>Temperaturanstieg des Tischantriebs</translation>
-    </message>
-    <message>
-        <source>test part: {} = {:g}; allowed: {}.</source>
-        <translation>Prüfwerkstück: {} = {:g}; zulässig: {}.</translation>
     </message>
     <message>
         <source>those that what-if --list lists</source>
@@ -9293,10 +9233,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>{} ist {:.4g} breit, was in mm unplausibel ist: die Einheit ist anscheinend µm; zulässig: mm.</translation>
     </message>
     <message>
-        <source>{} scatters {:.{}f} times as much as its stated sigma; it is used as found.</source>
-        <translation>{} streut {:.{}f}-mal so stark wie das angegebene sigma; verwendet wird die gefundene Streuung.</translation>
-    </message>
-    <message>
         <source>The observations agree far better with the simulation of about {:.0f} min {} ({:.0f} % less scatter), so they are compared with simulation and log at that time: compare the clocks of observations.csv, log.csv and the simulation.</source>
         <translation>Die Beobachtungen stimmen weit besser mit der Simulation von etwa {:.0f} min {} überein ({:.0f} % weniger Streuung) und werden deshalb mit Simulation und Protokoll zu dieser Zeit verglichen: Uhren von observations.csv, log.csv und der Simulation vergleichen.</translation>
     </message>
@@ -9606,7 +9542,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>Settled: the drift of every axis is below {} µm/h with its uncertainty.</source>
-        <translation>Eingelaufen: die Drift jeder Achse liegt mit ihrer Unsicherheit unter {} µm/h.</translation>
+        <translation>Thermisch stabil: die Drift jeder Achse liegt mit ihrer Unsicherheit unter {} µm/h.</translation>
     </message>
     <message>
         <source>Checking whether the instrument had settled</source>
@@ -9694,11 +9630,11 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>E{}{} changes by {:.4g} mm from {:g} to {:g} mm; allowed from one point to the next: 1/64 of their distance.</source>
-        <translation>E{}{} ändert sich um {:.4g} mm von {:g} bis {:g} mm; erlaubt von einem Punkt zum nächsten: 1/64 ihres Abstands.</translation>
+        <translation>E{}{} ändert sich um {:.4g} mm von {:g} bis {:g} mm; zulässig von einem Punkt zum nächsten: 1/64 ihres Abstands.</translation>
     </message>
     <message>
         <source>E{}{} is {:.4g} mm at {:g} mm; allowed in a sag compensation: -1 to 1 mm.</source>
-        <translation>E{}{} ist {:.4g} mm bei {:g} mm; erlaubt in einer Durchhangkompensation: -1 bis 1 mm.</translation>
+        <translation>E{}{} ist {:.4g} mm bei {:g} mm; zulässig in einer Durchhangkompensation: -1 bis 1 mm.</translation>
     </message>
     <message>
         <source>&quot;{}&quot; is not a number from 0 on.</source>
@@ -9738,7 +9674,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>the compensation of {} changes by {} detection units from {:g} to {:g} mm; allowed in pitch error data: -128 to 127.</source>
-        <translation>die Kompensation von {} ändert sich um {} Erfassungseinheiten von {:g} bis {:g} mm; erlaubt in Steigungsfehlerdaten: -128 bis 127.</translation>
+        <translation>die Kompensation von {} ändert sich um {} Erfassungseinheiten von {:g} bis {:g} mm; zulässig in Steigungsfehlerdaten: -128 bis 127.</translation>
     </message>
     <message>
         <source>{} is not allowed; allowed: -128 to 127.</source>
@@ -9882,7 +9818,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>$AN_CEC in mm, one table for each axis that is moved over the position of another: the deviation itself, {}, zero at the reference position; a positive value moves the axis in the negative direction. With the tables of $AA_ENC_COMP all displacements along the axes through the reference position are compensated; what depends on two axes together (the higher-order terms) is in no such table. It stands in place of the tables that the control has. Beyond what was measured it is extrapolated; the ISO 230-1 tables say where.</source>
-        <translation>$AN_CEC in mm, eine Tabelle für jede Achse, die über der Position einer anderen bewegt wird: die Abweichung selbst, {}, null an der Bezugsposition; ein positiver Wert bewegt die Achse in negativer Richtung. Mit den Tabellen von $AA_ENC_COMP sind alle Verschiebungen entlang der Achsen durch die Bezugsposition kompensiert; was von zwei Achsen zugleich abhängt (die Terme höherer Ordnung), steht in keiner solchen Tabelle. Sie steht anstelle der Tabellen, die die Steuerung hat. Jenseits des Gemessenen ist sie extrapoliert; die Tabellen nach ISO 230-1 sagen, wo.</translation>
+        <translation>$AN_CEC in mm, eine Tabelle für jede Achse, die über der Position einer anderen bewegt wird: die Abweichung selbst, {}, null an der Referenzposition; ein positiver Wert bewegt die Achse in negativer Richtung. Mit den Tabellen von $AA_ENC_COMP sind alle Verschiebungen entlang der Achsen durch die Referenzposition kompensiert; was von zwei Achsen zugleich abhängt (die Terme höherer Ordnung), steht in keiner solchen Tabelle. Sie steht anstelle der Tabellen, die die Steuerung hat. Jenseits des Gemessenen ist sie extrapoliert; die Tabellen nach ISO 230-1 sagen, wo.</translation>
     </message>
     <message>
         <source>the image is cut short: it has {} bytes, {:.0f} x {:.0f} pixels need {:.0f}; copy it again.</source>
@@ -9902,7 +9838,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>cannot be touched {:g} mm deep: the tip of stylus {} lies {:g} mm below the spindle reference, which stays {:g} mm above the bar; allowed: depth_mm up to {:g} mm.</source>
-        <translation>kann nicht {:g} mm tief angetastet werden: die Kugel des Tasters {} liegt {:g} mm unter der Spindelreferenz, die {:g} mm über der Leiste bleibt; zulässig: depth_mm bis {:g} mm.</translation>
+        <translation>kann nicht {:g} mm tief angetastet werden: die Kugel des Tastereinsatzes {} liegt {:g} mm unter der Spindelreferenz, die {:g} mm über der Leiste bleibt; zulässig: depth_mm bis {:g} mm.</translation>
     </message>
     <message>
         <source>the spindle reference goes to {:.2f} mm above the top of the bar; allowed: {:.2f} mm</source>
@@ -9975,10 +9911,6 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>Axis</source>
         <translation>Achse</translation>
-    </message>
-    <message>
-        <source>Axis against the certified distances at the temperature of the artefact; uncertainty of touches, certificate, coefficient and temperature</source>
-        <translation>Achse gegen die kalibrierten Abstände bei der Temperatur des Prüfkörpers; Unsicherheit von Antastungen, Kalibrierschein, Koeffizient und Temperatur</translation>
     </message>
     <message>
         <source>Ball</source>
@@ -10175,14 +10107,6 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>Gain in BIC</source>
         <translation>Gewinn in BIC</translation>
-    </message>
-    <message>
-        <source>Growth of the artefact; EME combines both by their uncertainties</source>
-        <translation>Ausdehnung des Prüfkörpers; EME kombiniert beide nach ihren Unsicherheiten</translation>
-    </message>
-    <message>
-        <source>Growth of the artefact; EME rests on the touches alone</source>
-        <translation>Ausdehnung des Prüfkörpers; EME beruht allein auf den Antastungen</translation>
     </message>
     <message>
         <source>Head rotation in {}: closed forms against the joint evaluation; the closed forms take every translation for a rotation and are shown for comparison only</source>
@@ -10481,10 +10405,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Thermische Abweichungen: {}</translation>
     </message>
     <message>
-        <source>These data cannot tell it from {}.</source>
-        <translation>Diese Daten können ihn nicht unterscheiden von {}.</translation>
-    </message>
-    <message>
         <source>These data show no offset between the clocks of log and observations.</source>
         <translation>Diese Daten zeigen keinen Versatz zwischen den Uhren von Protokoll und Beobachtungen.</translation>
     </message>
@@ -10609,10 +10529,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>nicht lesbar</translation>
     </message>
     <message>
-        <source>certified at</source>
-        <translation>kalibriert bei</translation>
-    </message>
-    <message>
         <source>change / µm</source>
         <translation>Änderung / µm</translation>
     </message>
@@ -10721,10 +10637,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>eine Standardunsicherheit (k = 1), wo nichts anderes angegeben ist</translation>
     </message>
     <message>
-        <source>pale: smaller than 2 sigma</source>
-        <translation>blass: kleiner als 2 Sigma</translation>
-    </message>
-    <message>
         <source>pale: smaller than two standard uncertainties, hatched: outside the measured points, hollow: not fitted</source>
         <translation>blass: kleiner als zwei Standardunsicherheiten, schraffiert: außerhalb der gemessenen Punkte, hohl: nicht angepasst</translation>
     </message>
@@ -10830,7 +10742,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>{:g} µm in X and Y, drawn {:g} times as long; bars: 2 standard uncertainties; number: EZ</source>
-        <translation>{:g} µm in X und Y, {:g}-mal so lang gezeichnet; Balken: 2 Standardunsicherheiten; Zahl: EZ</translation>
+        <translation>{:g} µm in X und Y, {:g}-fach vergrößert; Balken: 2 Standardunsicherheiten; Zahl: EZ</translation>
     </message>
     <message>
         <source>{} at {} in state {}</source>
@@ -11130,7 +11042,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>Peak to peak in the test</source>
-        <translation>Spanne in der Prüfung</translation>
+        <translation>Spitze-Spitze in der Prüfung</translation>
     </message>
     <message>
         <source>Planned</source>
@@ -11251,10 +11163,6 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>The spindle ran from {:.2f} h to {:.2f} h; changes are relative to its start.</source>
         <translation>Die Spindel lief von {:.2f} h bis {:.2f} h; Änderungen beziehen sich auf ihren Start.</translation>
-    </message>
-    <message>
-        <source>This is outdated. Changed since it was worked out: {}.</source>
-        <translation>Dies ist veraltet. Seit der Auswertung geändert: {}.</translation>
     </message>
     <message>
         <source>Times resumed</source>
@@ -11430,7 +11338,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>linear scale</source>
-        <translation>Maßstab</translation>
+        <translation>Längenmesssystem</translation>
     </message>
     <message>
         <source>named</source>
@@ -11546,7 +11454,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>Nothing stands out of the scatter, but the readings of {} scatter {:.0f} times as much as their stated sigma: what is smaller would not show.</source>
-        <translation>Nichts hebt sich von der Streuung ab, aber die Messwerte von {} streuen {:.0f}-mal so stark wie ihr angegebenes Sigma: Was kleiner ist, fiele nicht auf.</translation>
+        <translation>Nichts hebt sich von der Streuung ab, aber die Messwerte von {} streuen {:.0f}-mal so stark wie ihr angegebenes σ: Was kleiner ist, fiele nicht auf.</translation>
     </message>
     <message>
         <source>Displacements of all points over time, before and after</source>
@@ -11565,16 +11473,8 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Ein Teil dieser Installation lässt sich nicht laden ({}); installieren Sie Spindrift neu.</translation>
     </message>
     <message>
-        <source>Changed since you looked: {}. Look again.</source>
-        <translation>Geändert, seit Sie nachgesehen haben: {}. Sehen Sie noch einmal nach.</translation>
-    </message>
-    <message>
         <source>Compare states, simulation and model side by side.</source>
-        <translation>Vergleichen Sie Zustände, Simulation und Modell nebeneinander.</translation>
-    </message>
-    <message>
-        <source>You have looked at what there is.</source>
-        <translation>Sie haben alles Vorhandene angesehen.</translation>
+        <translation>Zustände, Simulation und Modell nebeneinander vergleichen.</translation>
     </message>
     <message>
         <source>The reference of the commands is in the English manual.</source>
@@ -11598,7 +11498,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>the reference position {} {:g} mm lies outside the travel; allowed: {:g} to {:g} mm.</source>
-        <translation>die Bezugsposition {} {:g} mm liegt außerhalb des Verfahrwegs; zulässig: {:g} bis {:g} mm.</translation>
+        <translation>die Referenzposition {} {:g} mm liegt außerhalb des Verfahrwegs; zulässig: {:g} bis {:g} mm.</translation>
     </message>
     <message>
         <source>which of {} is the speed of the spindle is not known; allowed: a column spindle_rpm, or --speed with one of them.</source>
@@ -11646,7 +11546,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>the sign differs: the probe shows less where the reference shows more</source>
-        <translation>das Vorzeichen ist verschieden: Der Taster zeigt weniger, wo die Referenz mehr zeigt</translation>
+        <translation>das Vorzeichen ist verschieden: Der Messtaster zeigt weniger, wo die Referenz mehr zeigt</translation>
     </message>
     <message>
         <source>the temperature of the artefact is {:g} °C at {:.6g} s; allowed: {:g} to {:g} °C (kelvin, degrees Fahrenheit, or the value of a broken sensor?).</source>
@@ -11838,7 +11738,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>the balls of {} lie as in a mirror: {:.3g} mm from the certificate, {:.3g} mm from its mirror image, so two columns are swapped or one has the wrong sign; allowed: x_mm, y_mm and z_mm of a right-handed system, as certified_mm in the machine file.</source>
-        <translation>die Kugeln von {} liegen wie im Spiegel: {:.3g} mm vom Zertifikat, {:.3g} mm von dessen Spiegelbild, also sind zwei Spalten vertauscht, oder eine hat das falsche Vorzeichen; zulässig: x_mm, y_mm und z_mm eines rechtshändigen Systems, wie certified_mm in der Maschinendatei.</translation>
+        <translation>die Kugeln von {} liegen wie im Spiegel: {:.3g} mm vom Kalibrierschein, {:.3g} mm von dessen Spiegelbild, also sind zwei Spalten vertauscht, oder eine hat das falsche Vorzeichen; zulässig: x_mm, y_mm und z_mm eines rechtshändigen Systems, wie certified_mm in der Maschinendatei.</translation>
     </message>
     <message>
         <source>the images show the Y axis {:.1f}° clockwise from the X axis ({} in state {}); allowed: about 90° counter-clockwise, seen from above (has x_mm or y_mm the wrong sign?).</source>
@@ -11855,6 +11755,170 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>readings of the axis: {}; allowed: at least 4 at each of two positions.</source>
         <translation>Messwerte der Achse: {}; zulässig: mindestens 4 an jeder von zwei Positionen.</translation>
+    </message>
+    <message>
+        <source>The watchdog of {} does not receive the heartbeat.</source>
+        <translation>Die Überwachung von {} empfängt kein Lebenszeichen.</translation>
+    </message>
+    <message>
+        <source>waiting for the first set value</source>
+        <translation>wartet auf den ersten Sollwert</translation>
+    </message>
+    <message>
+        <source>Measurement and simulation differ; no effect of the catalogue explains it.</source>
+        <translation>Messung und Simulation weichen voneinander ab; kein Effekt des Katalogs erklärt es.</translation>
+    </message>
+    <message>
+        <source>Measurement and simulation differ; no effect was tried.</source>
+        <translation>Messung und Simulation weichen voneinander ab; kein Effekt wurde versucht.</translation>
+    </message>
+    <message>
+        <source>{} cannot be distinguished from {}, because the log lacks what drives the latter: log it next time.</source>
+        <translation>{} lässt sich nicht von {} unterscheiden, weil im Protokoll fehlt, was letzteren antreibt: beim nächsten Mal aufzeichnen.</translation>
+    </message>
+    <message>
+        <source>{} scatters {:.{}f} times as much as its stated σ; it is used as found.</source>
+        <translation>{} streut {:.{}f}-mal so stark wie sein angegebenes σ; verwendet wird die gefundene Streuung.</translation>
+    </message>
+    <message>
+        <source>{} {} read at one point only: whether the state was shifted or the point moved cannot be distinguished there.</source>
+        <translation>{} {} nur an einem Punkt gemessen: Ob der Zustand verschoben war oder der Punkt sich bewegte, lässt sich dort nicht unterscheiden.</translation>
+    </message>
+    <message>
+        <source>No temperature of the log is ever below 50 °C ({} begins at {:.1f}): they look like degrees Fahrenheit, although their names say degC.</source>
+        <translation>Keine Temperatur des Protokolls liegt je unter 50 °C ({} beginnt bei {:.1f}): Sie sehen nach Grad Fahrenheit aus, obwohl ihre Namen degC sagen.</translation>
+    </message>
+    <message>
+        <source>The log repeats the time of the row before {}; the last row of one time holds.</source>
+        <translation>Das Protokoll wiederholt die Zeit der vorigen Zeile {}; es gilt die letzte Zeile einer Zeit.</translation>
+    </message>
+    <message>
+        <source>its median is {:.1f}, which looks like kelvin although the name says degC; allowed: temperatures in °C.</source>
+        <translation>ihr Median ist {:.1f}, das sieht nach Kelvin aus, obwohl der Name degC sagt; zulässig: Temperaturen in °C.</translation>
+    </message>
+    <message>
+        <source>measured from {:g} to {:g} mm; beyond that extrapolated</source>
+        <translation>gemessen von {:g} bis {:g} mm; darüber hinaus extrapoliert</translation>
+    </message>
+    <message>
+        <source>{} times</source>
+        <translation>{}-mal</translation>
+    </message>
+    <message>
+        <source>0, or a number from {:g} to {:g}: µm/(m·K), not 1/K</source>
+        <translation>0 oder eine Zahl von {:g} bis {:g}: µm/(m·K), nicht 1/K</translation>
+    </message>
+    <message>
+        <source>a number from 0 to {:g}</source>
+        <translation>eine Zahl von 0 bis {:g}</translation>
+    </message>
+    <message>
+        <source>the touch does not print its {}; allowed: A feature, B stylus, C angle, I J K approach</source>
+        <translation>die Antastung gibt ihr {} nicht aus; zulässig: A Merkmal, B Tastereinsatz, C Winkel, I J K Antastrichtung</translation>
+    </message>
+    <message>
+        <source>the touch prints C{:g} while the table stands at {:g}</source>
+        <translation>die Antastung gibt C{:g} aus, während der Tisch bei {:g} steht</translation>
+    </message>
+    <message>
+        <source>the touch prints the approach I{:g} J{:g} K{:g} but moves along {:.3f}, {:.3f}, {:.3f}</source>
+        <translation>die Antastung gibt die Richtung I{:g} J{:g} K{:g} aus, bewegt sich aber entlang {:.3f}, {:.3f}, {:.3f}</translation>
+    </message>
+    <message>
+        <source>These data cannot distinguish it from {}.</source>
+        <translation>Diese Daten können ihn nicht von {} unterscheiden.</translation>
+    </message>
+    <message>
+        <source>pale: below 2 standard uncertainties</source>
+        <translation>blass: unter 2 Standardunsicherheiten</translation>
+    </message>
+    <message>
+        <source>Changed since the review: {}. Review again.</source>
+        <translation>Geändert seit der Durchsicht: {}. Erneut ansehen.</translation>
+    </message>
+    <message>
+        <source>Comparison reviewed.</source>
+        <translation>Vergleich angesehen.</translation>
+    </message>
+    <message>
+        <source>a diagonal of variances, none negative</source>
+        <translation>eine Diagonale aus Varianzen, keine negativ</translation>
+    </message>
+    <message>
+        <source>every output once</source>
+        <translation>jede Ausgangsgröße einmal</translation>
+    </message>
+    <message>
+        <source>Environmental temperature variation error (ETVE), µm or µrad</source>
+        <translation>Abweichung durch Schwankung der Umgebungstemperatur (ETVE), µm oder µrad</translation>
+    </message>
+    <message>
+        <source>Outdated. Changed since the calculation: {}.</source>
+        <translation>Veraltet. Geändert seit der Berechnung: {}.</translation>
+    </message>
+    <message>
+        <source>Thermal distortion caused by motion of axis {}</source>
+        <translation>Thermische Verformung durch Bewegung der Achse {}</translation>
+    </message>
+    <message>
+        <source>Thermal distortion caused by the rotating spindle, µm or µrad</source>
+        <translation>Thermische Verformung durch die drehende Spindel, µm oder µrad</translation>
+    </message>
+    <message>
+        <source>all {} values equal those before compensation; allowed: the same plan measured again with the compensation on.</source>
+        <translation>alle {} Werte sind gleich denen vor der Kompensation; zulässig: derselbe Plan, mit eingeschalteter Kompensation neu gemessen.</translation>
+    </message>
+    <message>
+        <source>not determined (the change is below three standard uncertainties)</source>
+        <translation>nicht bestimmt (die Änderung liegt unter drei Standardunsicherheiten)</translation>
+    </message>
+    <message>
+        <source>residual, adaptive</source>
+        <translation>Residuum, adaptiv</translation>
+    </message>
+    <message>
+        <source>residual, static</source>
+        <translation>Residuum, statisch</translation>
+    </message>
+    <message>
+        <source>{} of {} readings of E{} have no direction of approach; allowed: one for every reading, or for none.</source>
+        <translation>{} von {} Messwerten von E{} haben keine Anfahrrichtung; zulässig: eine für jeden Messwert oder für keinen.</translation>
+    </message>
+    <message>
+        <source>test piece: {} = {:g}; allowed: {}.</source>
+        <translation>Prüfwerkstück: {} = {:g}; zulässig: {}.</translation>
+    </message>
+    <message>
+        <source>The calibrated position of {}</source>
+        <translation>Die kalibrierte Position von {}</translation>
+    </message>
+    <message>
+        <source>The temperature of {} is not known: its lengths are compared with the certificate as if it were at {:g} °C; with every kelvin they are {:.1f} µm/m off, beyond the stated uncertainty.</source>
+        <translation>Die Temperatur von {} ist nicht bekannt: Seine Längen werden mit dem Kalibrierschein verglichen, als hätte es {:g} °C; mit jedem Kelvin liegen sie um {:.1f} µm/m daneben, über die angegebene Unsicherheit hinaus.</translation>
+    </message>
+    <message>
+        <source>Axis against the calibrated distances at the temperature of the artefact; uncertainty of touches, certificate, coefficient and temperature</source>
+        <translation>Achse gegen die kalibrierten Abstände bei der Temperatur des Prüfkörpers; Unsicherheit aus Antastungen, Kalibrierschein, Koeffizient und Temperatur</translation>
+    </message>
+    <message>
+        <source>Expansion of the artefact; EME combines both by their uncertainties</source>
+        <translation>Ausdehnung des Prüfkörpers; EME verbindet beide nach ihren Unsicherheiten</translation>
+    </message>
+    <message>
+        <source>Expansion of the artefact; EME rests on the touches alone</source>
+        <translation>Ausdehnung des Prüfkörpers; EME beruht allein auf den Antastungen</translation>
+    </message>
+    <message>
+        <source>calibrated at</source>
+        <translation>kalibriert bei</translation>
+    </message>
+    <message>
+        <source>column dir_{}</source>
+        <translation>Spalte dir_{}</translation>
+    </message>
+    <message>
+        <source>The range of the test</source>
+        <translation>Der Bereich der Prüfung</translation>
     </message>
 </context>
 <context>
@@ -14799,7 +14863,7 @@ ihrem Ordner und führen nicht hinaus.
     </message>
     <message>
         <source>where the scale is fixed</source>
-        <translation>wo der Maßstab befestigt ist</translation>
+        <translation>wo das Längenmesssystem befestigt ist</translation>
     </message>
     <message>
         <source>where the sensor sits, for people</source>
@@ -15026,7 +15090,7 @@ ihrem Ordner und führen nicht hinaus.
     </message>
     <message>
         <source>&lt;b&gt;Noise:&lt;/b&gt; what was taken as noise: its scale (actual scatter over stated σ), the shift common to all points of a state, tails, the clock of the log, and outlying readings. Each reading can be looked at, excluded and brought back.</source>
-        <translation>&lt;b&gt;Rauschen:&lt;/b&gt; was als Rauschen galt: sein Maßstab (tatsächliche Streuung zu angegebenem σ), die allen Punkten eines Zustands gemeinsame Verschiebung, die Ausläufer der Verteilung, die Uhr des Protokolls und Ausreißer. Jeder Messwert lässt sich ansehen, ausschließen und zurückholen.</translation>
+        <translation>&lt;b&gt;Rauschen:&lt;/b&gt; was als Rauschen galt: sein Rauschfaktor (tatsächliche Streuung zu angegebenem σ), die allen Punkten eines Zustands gemeinsame Verschiebung, die Ausläufer der Verteilung, die Uhr des Protokolls und Ausreißer. Jeder Messwert lässt sich ansehen, ausschließen und zurückholen.</translation>
     </message>
     <message>
         <source>&lt;b&gt;Remains:&lt;/b&gt; what is smooth in time and space and neither effect nor noise: its rms in every component, its time history beside what the effects explain, its pattern over the points.</source>
@@ -15122,7 +15186,7 @@ ihrem Ordner und führen nicht hinaus.
     </message>
     <message>
         <source>A day is 10,000 campaigns. At the rates that were measured (1,000 in 0.5 s to 1.7 s, on two processors that others used as well) they are published in 5 s to 17 s.</source>
-        <translation>Ein Tag sind 10.000 Kampagnen. Bei den gemessenen Raten (1.000 in 0,5 s bis 1,7 s auf zwei auch anderweitig genutzten Prozessoren) sind sie in 5 s bis 17 s veröffentlicht.</translation>
+        <translation>Ein Tag sind 10&#x202f;000 Kampagnen. Bei den gemessenen Raten (1&#x202f;000 in 0,5 s bis 1,7 s auf zwei auch anderweitig genutzten Prozessoren) sind sie in 5 s bis 17 s veröffentlicht.</translation>
     </message>
     <message>
         <source>A log alone has a report too: conditions, displacements, ISO 230-3 where it is such a test, model and compensation.</source>
@@ -15178,7 +15242,7 @@ ihrem Ordner und führen nicht hinaus.
     </message>
     <message>
         <source>Describe the machine once: the chain from workpiece to tool, the travel of each axis, where its drive is held and where its scale counts from. Everything that is fitted and drawn later takes its frame from here.</source>
-        <translation>Die Maschine einmal beschreiben: die Kette vom Werkstück zum Werkzeug, den Verfahrweg jeder Achse, wo ihr Antrieb gelagert ist und von wo ihr Maßstab zählt. Alles, was später angepasst und gezeichnet wird, bezieht sich auf dieses Koordinatensystem.</translation>
+        <translation>Die Maschine einmal beschreiben: die Kette vom Werkstück zum Werkzeug, den Verfahrweg jeder Achse, wo ihr Antrieb gelagert ist und von wo ihr Längenmesssystem zählt. Alles, was später angepasst und gezeichnet wird, bezieht sich auf dieses Koordinatensystem.</translation>
     </message>
     <message>
         <source>Discrepancy</source>
@@ -15266,11 +15330,11 @@ ihrem Ordner und führen nicht hinaus.
     </message>
     <message>
         <source>On paper: 10,000 machines, daily, ten years</source>
-        <translation>Auf dem Papier: 10.000 Maschinen, täglich, zehn Jahre</translation>
+        <translation>Auf dem Papier: 10&#x202f;000 Maschinen, täglich, zehn Jahre</translation>
     </message>
     <message>
         <source>One machine has 3,650 campaigns, fourteen times as many as in five years of weeks. They are found by machine and time, whatever else is in the store; a trend of them takes fourteen times as long.</source>
-        <translation>Eine Maschine hat 3.650 Kampagnen, vierzehnmal so viele wie bei wöchentlicher Messung in fünf Jahren. Sie werden über Maschine und Zeit gefunden, unabhängig vom übrigen Inhalt der Werksdatenbank; ein Verlauf daraus dauert vierzehnmal so lange.</translation>
+        <translation>Eine Maschine hat 3&#x202f;650 Kampagnen, vierzehnmal so viele wie bei wöchentlicher Messung in fünf Jahren. Sie werden über Maschine und Zeit gefunden, unabhängig vom übrigen Inhalt der Werksdatenbank; ein Verlauf daraus dauert vierzehnmal so lange.</translation>
     </message>
     <message>
         <source>Open the store of your plant: a file, or the PostgreSQL server that your department has. Its password stands in the file that PGPASSFILE names, never in the address.</source>
@@ -15318,7 +15382,7 @@ ihrem Ordner und führen nicht hinaus.
     </message>
     <message>
         <source>The first to break is what reads all campaigns: the list without a machine (0.2 s for 14,000; ten minutes for all) and the list of machines, which reads every start (0.03 s for 14,000; more than a minute for all). From about 300,000 campaigns on, name the machine, and keep the last start of each machine in its row.</source>
-        <translation>Als Erstes versagt, was alle Kampagnen liest: die Liste ohne Maschine (0,2 s für 14.000; zehn Minuten für alle) und die Liste der Maschinen, die jeden Beginn liest (0,03 s für 14.000; über eine Minute für alle). Ab etwa 300.000 Kampagnen die Maschine nennen und den letzten Beginn jeder Maschine in ihrer Zeile führen.</translation>
+        <translation>Als Erstes versagt, was alle Kampagnen liest: die Liste ohne Maschine (0,2 s für 14&#x202f;000; zehn Minuten für alle) und die Liste der Maschinen, die jeden Beginn liest (0,03 s für 14&#x202f;000; über eine Minute für alle). Ab etwa 300&#x202f;000 Kampagnen die Maschine nennen und den letzten Beginn jeder Maschine in ihrer Zeile führen.</translation>
     </message>
     <message>
         <source>The log marks the time with compensation_on; such readings enter no fit of the machine&apos;s own errors.</source>
@@ -15494,7 +15558,7 @@ ihrem Ordner und führen nicht hinaus.
     </message>
     <message>
         <source>Measured with 14,000 campaigns on PostgreSQL 15, each with one fit of nine parameters, its covariance and one file: 2.2 kB a campaign (campaign 0.21, files 0.23, result 0.81, parameters 0.93 kB, indexes among them); SQLite 1.6 kB. The following figures are calculated from that.</source>
-        <translation>Gemessen mit 14.000 Kampagnen auf PostgreSQL 15, jede mit einer Anpassung von neun Parametern, ihrer Kovarianz und einer Datei: 2,2 kB je Kampagne (Kampagne 0,21, Dateien 0,23, Ergebnis 0,81, Parameter 0,93 kB, einschließlich Indizes); SQLite 1,6 kB. Die folgenden Zahlen sind daraus berechnet.</translation>
+        <translation>Gemessen mit 14&#x202f;000 Kampagnen auf PostgreSQL 15, jede mit einer Anpassung von neun Parametern, ihrer Kovarianz und einer Datei: 2,2 kB je Kampagne (Kampagne 0,21, Dateien 0,23, Ergebnis 0,81, Parameter 0,93 kB, einschließlich Indizes); SQLite 1,6 kB. Die folgenden Zahlen sind daraus berechnet.</translation>
     </message>
     <message>
         <source>An instrument that is still warming up measures itself. Measure one point every 5 minutes, then press &lt;b&gt;Check the drift&lt;/b&gt;: its fit says whether the instrument has settled.</source>
@@ -15843,10 +15907,6 @@ ihrem Ordner und führen nicht hinaus.
         <translation>wiederholen</translation>
     </message>
     <message>
-        <source>twice</source>
-        <translation>doppelt</translation>
-    </message>
-    <message>
         <source>left aside</source>
         <translation>beiseitegelegt</translation>
     </message>
@@ -15940,6 +16000,10 @@ ihrem Ordner und führen nicht hinaus.
             <numerusform>Der Ordner %1 wird überwacht: %n Datei, %2 angenommen. Die Aufnahme läuft weiter, wenn diese Seite verlassen wird.</numerusform>
             <numerusform>Der Ordner %1 wird überwacht: %n Dateien, %2 angenommen. Die Aufnahme läuft weiter, wenn diese Seite verlassen wird.</numerusform>
         </translation>
+    </message>
+    <message>
+        <source>duplicate</source>
+        <translation>doppelt</translation>
     </message>
 </context>
 <context>
@@ -16293,10 +16357,6 @@ ihrem Ordner und führen nicht hinaus.
         <translation>Kalibrierschein ± / µm</translation>
     </message>
     <message>
-        <source>Standard uncertainty of a certified position</source>
-        <translation>Standardunsicherheit einer zertifizierten Position</translation>
-    </message>
-    <message>
         <source>Hole diameter / mm</source>
         <translation>Lochdurchmesser / mm</translation>
     </message>
@@ -16341,10 +16401,6 @@ ihrem Ordner und führen nicht hinaus.
         <translation>Loch</translation>
     </message>
     <message>
-        <source>Certified position along the bar / mm</source>
-        <translation>Zertifizierte Position auf der Leiste / mm</translation>
-    </message>
-    <message>
         <source>Ball</source>
         <translation>Kugel</translation>
     </message>
@@ -16375,6 +16431,14 @@ ihrem Ordner und führen nicht hinaus.
     <message>
         <source>Expansion / (µm/(m·K))</source>
         <translation>Ausdehnungskoeffizient / (µm/(m·K))</translation>
+    </message>
+    <message>
+        <source>Standard uncertainty of a calibrated position</source>
+        <translation>Standardunsicherheit einer kalibrierten Position</translation>
+    </message>
+    <message>
+        <source>Calibrated position along the bar / mm</source>
+        <translation>Kalibrierte Position auf der Leiste / mm</translation>
     </message>
 </context>
 <context>
@@ -16430,10 +16494,6 @@ ihrem Ordner und führen nicht hinaus.
     <message>
         <source>Time / min</source>
         <translation>Zeit / min</translation>
-    </message>
-    <message>
-        <source>EXY / µm</source>
-        <translation>EXY / µm</translation>
     </message>
     <message>
         <source>Errors of the axis will appear here</source>
@@ -16597,6 +16657,10 @@ ihrem Ordner und führen nicht hinaus.
     <message>
         <source>in the noise</source>
         <translation>im Rauschen</translation>
+    </message>
+    <message>
+        <source>Error / µm</source>
+        <translation>Abweichung / µm</translation>
     </message>
 </context>
 <context>
@@ -17695,7 +17759,11 @@ ihrem Ordner und führen nicht hinaus.
     </message>
     <message>
         <source>on held-out data; on fitted data %1</source>
-        <translation>an zurückgehaltenen Daten; an angepassten %1</translation>
+        <translation>an Validierungsdaten; an angepassten Daten %1</translation>
+    </message>
+    <message>
+        <source>No file was written. Changed since the compensation was calculated: %1.</source>
+        <translation>Keine Datei wurde geschrieben. Geändert seit der Berechnung der Kompensation: %1.</translation>
     </message>
 </context>
 <context>
@@ -18089,10 +18157,6 @@ ihrem Ordner und führen nicht hinaus.
         <translation>Drehungen</translation>
     </message>
     <message>
-        <source>Growth</source>
-        <translation>Ausdehnung</translation>
-    </message>
-    <message>
         <source>Group of parameters</source>
         <translation>Gruppe von Parametern</translation>
     </message>
@@ -18198,10 +18262,6 @@ ihrem Ordner und führen nicht hinaus.
     <message>
         <source>Rotation / µrad</source>
         <translation>Drehung / µrad</translation>
-    </message>
-    <message>
-        <source>Growth / µm/m</source>
-        <translation>Ausdehnung / µm/m</translation>
     </message>
     <message>
         <source>Time / %1</source>
@@ -18355,6 +18415,14 @@ ihrem Ordner und führen nicht hinaus.
         <source>Change per 10⁻⁶</source>
         <translation>Änderung je 10⁻⁶</translation>
     </message>
+    <message>
+        <source>Expansion</source>
+        <translation>Ausdehnung</translation>
+    </message>
+    <message>
+        <source>Expansion / (µm/m)</source>
+        <translation>Ausdehnung / (µm/m)</translation>
+    </message>
 </context>
 <context>
     <name>spindrift::gui::DiscrepancyPage</name>
@@ -18399,10 +18467,6 @@ ihrem Ordner und führen nicht hinaus.
         <translation>Der Effektivwert (rms) beträgt %1, das Rauschen %2. Es fehlt nichts.</translation>
     </message>
     <message>
-        <source>Beside %1 something is missing that no effect of the catalogue explains.</source>
-        <translation>Außer %1 fehlt etwas, das kein Effekt des Katalogs erklärt.</translation>
-    </message>
-    <message>
         <source>Something is missing that no effect of the catalogue explains.</source>
         <translation>Es fehlt etwas, das kein Effekt des Katalogs erklärt.</translation>
     </message>
@@ -18417,10 +18481,6 @@ ihrem Ordner und führen nicht hinaus.
     <message>
         <source>With %1 the simulation agrees with the measurement.</source>
         <translation>Mit %1 stimmt die Simulation mit der Messung überein.</translation>
-    </message>
-    <message>
-        <source>Beside %1 the simulation lacks: %2.</source>
-        <translation>Außer %1 fehlt in der Simulation: %2.</translation>
     </message>
     <message>
         <source>The simulation lacks: %1.</source>
@@ -18592,7 +18652,15 @@ ihrem Ordner und führen nicht hinaus.
     </message>
     <message>
         <source>Readings of %1 scatter %2 times as much as their stated σ: what is smaller than the noise of %3 would not show. Check how they were taken.</source>
-        <translation>Die Messwerte von %1 streuen %2-mal so stark wie ihr angegebenes σ: Was kleiner als das Rauschen von %3 ist, fiele nicht auf. Prüfen Sie, wie sie gemessen wurden.</translation>
+        <translation>Die Messwerte von %1 streuen %2-mal so stark wie ihr angegebenes σ: Was kleiner als das Rauschen von %3 ist, fiele nicht auf. Prüfen, wie sie gemessen wurden.</translation>
+    </message>
+    <message>
+        <source>In addition to %1 something is missing that no effect of the catalogue explains.</source>
+        <translation>Zusätzlich zu %1 fehlt etwas, das kein Effekt des Katalogs erklärt.</translation>
+    </message>
+    <message>
+        <source>In addition to %1 the simulation lacks: %2.</source>
+        <translation>Zusätzlich zu %1 fehlt der Simulation: %2.</translation>
     </message>
 </context>
 <context>
@@ -19978,7 +20046,7 @@ ihrem Ordner und führen nicht hinaus.
     </message>
     <message>
         <source>fit %1 %</source>
-        <translation>Fit %1 %</translation>
+        <translation>Anpassungsgüte %1 %</translation>
     </message>
     <message>
         <source>rms before, after and noise floor</source>
@@ -20010,11 +20078,11 @@ ihrem Ordner und führen nicht hinaus.
     </message>
     <message>
         <source>p2p %1 %2</source>
-        <translation>p2p %1 %2</translation>
+        <translation>Spitze-Spitze %1 %2</translation>
     </message>
     <message>
         <source>rms: of the residuals of all observations. p2p: the largest peak-to-peak of the residual of one series. fit: 100 % is perfect, 0 % no better than a constant for each series.</source>
-        <translation>rms: der Residuen aller Beobachtungen. p2p: größter Spitze-Spitze-Wert des Residuums einer Reihe. Fit: 100 % ist perfekt, 0 % nicht besser als eine Konstante je Reihe.</translation>
+        <translation>rms: der Residuen aller Beobachtungen. Spitze-Spitze: größter Wert des Residuums einer Reihe. Anpassungsgüte: 100 % ist perfekt, 0 % nicht besser als eine Konstante je Reihe.</translation>
     </message>
 </context>
 <context>
@@ -20824,10 +20892,6 @@ ihrem Ordner und führen nicht hinaus.
         <translation>Korrektur</translation>
     </message>
     <message>
-        <source>left</source>
-        <translation>Rest</translation>
-    </message>
-    <message>
         <source>test</source>
         <translation>Prüfung</translation>
     </message>
@@ -20846,6 +20910,10 @@ ihrem Ordner und führen nicht hinaus.
     <message>
         <source>Compensator over the log</source>
         <translation>Kompensator über das Protokoll</translation>
+    </message>
+    <message>
+        <source>residual</source>
+        <translation>Residuum</translation>
     </message>
 </context>
 <context>
@@ -21133,7 +21201,7 @@ ihrem Ordner und führen nicht hinaus.
     </message>
     <message>
         <source>linear scale</source>
-        <translation>Maßstab</translation>
+        <translation>Längenmesssystem</translation>
     </message>
     <message>
         <source>fiducial</source>
@@ -22019,18 +22087,6 @@ ihrem Ordner und führen nicht hinaus.
         <translation>auch damit verbleibt etwas, das kein Effekt erklärt</translation>
     </message>
     <message>
-        <source>out again</source>
-        <translation>wieder heraus</translation>
-    </message>
-    <message>
-        <source>in</source>
-        <translation>aufgenommen</translation>
-    </message>
-    <message>
-        <source>not</source>
-        <translation>nicht</translation>
-    </message>
-    <message>
         <source>After the search this says which measurement distinguishes the rivals.</source>
         <translation>Nach der Suche steht hier, welche Messung die konkurrierenden Erklärungen unterscheidet.</translation>
     </message>
@@ -22079,12 +22135,24 @@ ihrem Ordner und führen nicht hinaus.
         <translation>Kein Effekt des Katalogs passt, daher gibt es keine konkurrierenden Erklärungen zu unterscheiden. Aufzeichnen, was sonst an der Maschine geschieht (Hydraulik, Pumpen, Türen, Nachbarn), wenn die Unterschiede auftreten, und erneut messen.</translation>
     </message>
     <message>
-        <source>Nothing: measured and simulated agree.</source>
-        <translation>Nichts: Messung und Simulation stimmen überein.</translation>
+        <source>removed</source>
+        <translation>entfernt</translation>
     </message>
     <message>
-        <source>Nothing: no rival fits as well as the named effect.</source>
-        <translation>Nichts: keine konkurrierende Erklärung passt so gut wie der benannte Effekt.</translation>
+        <source>added</source>
+        <translation>aufgenommen</translation>
+    </message>
+    <message>
+        <source>not added</source>
+        <translation>nicht aufgenommen</translation>
+    </message>
+    <message>
+        <source>Nothing to measure next: measured and simulated agree.</source>
+        <translation>Als Nächstes ist nichts zu messen: Gemessenes und Simuliertes stimmen überein.</translation>
+    </message>
+    <message>
+        <source>Nothing to measure next: no rival fits as well as the named effect.</source>
+        <translation>Als Nächstes ist nichts zu messen: Keine konkurrierende Erklärung passt so gut wie der benannte Effekt.</translation>
     </message>
 </context>
 <context>
@@ -23740,16 +23808,8 @@ ihrem Ordner und führen nicht hinaus.
         <translation>Über das Rauschen hinaus verbleibt nichts.</translation>
     </message>
     <message>
-        <source>Beside %1 nothing remains beyond the noise.</source>
-        <translation>Außer %1 verbleibt über das Rauschen hinaus nichts.</translation>
-    </message>
-    <message>
         <source>Nothing can be named: the remainder is %1.</source>
         <translation>Nichts lässt sich benennen: der Rest beträgt %1.</translation>
-    </message>
-    <message>
-        <source>Beside %1 the remainder is %2.</source>
-        <translation>Außer %1 beträgt der Rest %2.</translation>
     </message>
     <message>
         <source>%1 / %2</source>
@@ -23822,6 +23882,14 @@ ihrem Ordner und führen nicht hinaus.
     <message>
         <source>Remainder %1 %2</source>
         <translation>Rest %1 %2</translation>
+    </message>
+    <message>
+        <source>Apart from %1 nothing remains beyond the noise.</source>
+        <translation>Außer %1 bleibt nichts, was über das Rauschen hinausgeht.</translation>
+    </message>
+    <message>
+        <source>Apart from %1 the remainder is %2.</source>
+        <translation>Außer %1 bleibt: %2.</translation>
     </message>
 </context>
 <context>
@@ -24250,10 +24318,6 @@ ihrem Ordner und führen nicht hinaus.
         <translation>Feld %1</translation>
     </message>
     <message>
-        <source>%1 is shown as it was worked out before. Changed since: %2.</source>
-        <translation>%1 ist gezeigt wie zuvor berechnet. Geändert seitdem: %2.</translation>
-    </message>
-    <message>
         <source>Angle of the table</source>
         <translation>Winkel des Tisches</translation>
     </message>
@@ -24276,6 +24340,10 @@ ihrem Ordner und führen nicht hinaus.
     <message>
         <source>Reading %1</source>
         <translation>%1 wird gelesen</translation>
+    </message>
+    <message>
+        <source>%1: earlier result. Changed since: %2.</source>
+        <translation>%1: früheres Ergebnis. Geändert seitdem: %2.</translation>
     </message>
 </context>
 <context>
@@ -24819,16 +24887,16 @@ ihrem Ordner und führen nicht hinaus.
         <translation>Aktualisierte Simulation über dem Tisch</translation>
     </message>
     <message>
-        <source>The map is being worked out.</source>
-        <translation>Die Karte wird berechnet.</translation>
-    </message>
-    <message>
         <source>%1 %2</source>
         <translation>%1 %2</translation>
     </message>
     <message>
         <source>%1, measured − simulation at %2</source>
         <translation>%1, gemessen − Simulation bei %2</translation>
+    </message>
+    <message>
+        <source>Calculating the map.</source>
+        <translation>Die Karte wird berechnet.</translation>
     </message>
 </context>
 <context>
@@ -25098,16 +25166,16 @@ ihrem Ordner und führen nicht hinaus.
 <context>
     <name>spindrift::gui::TestPartView</name>
     <message>
-        <source>Milled test part</source>
-        <translation>Gefrästes Prüfwerkstück</translation>
-    </message>
-    <message>
         <source>Deviations from bore C, magnified %1 ×</source>
         <translation>Abweichungen von Bohrung C, %1-fach vergrößert</translation>
     </message>
     <message>
         <source>No deviation: the part is as it should be</source>
         <translation>Keine Abweichung: Das Werkstück ist, wie es sein soll</translation>
+    </message>
+    <message>
+        <source>Milled test piece</source>
+        <translation>Gefrästes Prüfwerkstück</translation>
     </message>
 </context>
 <context>
@@ -25142,7 +25210,7 @@ ihrem Ordner und führen nicht hinaus.
     </message>
     <message>
         <source>Test, fit</source>
-        <translation>Prüfung, Fit</translation>
+        <translation>Prüfung, Anpassungsgüte</translation>
     </message>
     <message>
         <source>Test, peak to peak</source>
@@ -25226,7 +25294,7 @@ ihrem Ordner und führen nicht hinaus.
     </message>
     <message>
         <source>Fit / %</source>
-        <translation>Fit / %</translation>
+        <translation>Anpassungsgüte / %</translation>
     </message>
     <message>
         <source>Comparison</source>
@@ -25271,10 +25339,6 @@ ihrem Ordner und führen nicht hinaus.
     <message>
         <source>Time constant</source>
         <translation>Zeitkonstante</translation>
-    </message>
-    <message>
-        <source>Pole / 1/h</source>
-        <translation>Pol / 1/h</translation>
     </message>
     <message>
         <source>Gain</source>
@@ -25511,6 +25575,14 @@ ihrem Ordner und führen nicht hinaus.
     <message>
         <source>Peak to peak</source>
         <translation>Spitze-Spitze</translation>
+    </message>
+    <message>
+        <source>Pole / (1/h)</source>
+        <translation>Pol / (1/h)</translation>
+    </message>
+    <message>
+        <source>choose the test of ISO 230-3</source>
+        <translation>Prüfung nach ISO 230-3 wählen</translation>
     </message>
 </context>
 <context>
@@ -26074,10 +26146,6 @@ ihrem Ordner und führen nicht hinaus.
         <translation>Abweichung / µm</translation>
     </message>
     <message>
-        <source>Certified / mm</source>
-        <translation>Zertifiziert / mm</translation>
-    </message>
-    <message>
         <source>Distances</source>
         <translation>Abstände</translation>
     </message>
@@ -26150,14 +26218,6 @@ ihrem Ordner und führen nicht hinaus.
         <translation>%1 gegen Kalibrierschein / (µm/m)</translation>
     </message>
     <message>
-        <source>Growth, coefficient × temperature / (µm/m)</source>
-        <translation>Ausdehnung, Koeffizient × Temperatur / (µm/m)</translation>
-    </message>
-    <message>
-        <source>Growth, touches / (µm/m)</source>
-        <translation>Ausdehnung, Antastungen / (µm/m)</translation>
-    </message>
-    <message>
         <source>EME combines touches with expansion coefficient and temperature by their uncertainties; the certificate counts in EME and EXX.</source>
         <translation>EME verbindet Antastungen mit Ausdehnungskoeffizient und Temperatur nach ihren Unsicherheiten; der Kalibrierschein zählt in EME und EXX.</translation>
     </message>
@@ -26196,6 +26256,42 @@ ihrem Ordner und führen nicht hinaus.
     <message>
         <source>Deviations found: %1.</source>
         <translation>Abweichungen ermittelt: %1.</translation>
+    </message>
+    <message>
+        <source>Calibrated / mm</source>
+        <translation>Kalibriert / mm</translation>
+    </message>
+    <message>
+        <source>Expansion, coefficient × temperature / (µm/m)</source>
+        <translation>Ausdehnung, Koeffizient × Temperatur / (µm/m)</translation>
+    </message>
+    <message>
+        <source>Expansion, touches / (µm/m)</source>
+        <translation>Ausdehnung, Antastungen / (µm/m)</translation>
+    </message>
+    <message>
+        <source>The expansion of the artefact will appear here</source>
+        <translation>Hier erscheint die Ausdehnung des Prüfkörpers</translation>
+    </message>
+    <message>
+        <source>Its temperature and its expansion coefficient say how much it expands from cycle to cycle.</source>
+        <translation>Seine Temperatur und sein Ausdehnungskoeffizient sagen, wie weit er sich von Zyklus zu Zyklus ausdehnt.</translation>
+    </message>
+    <message>
+        <source>coefficient × temperature</source>
+        <translation>Koeffizient × Temperatur</translation>
+    </message>
+    <message>
+        <source>touches</source>
+        <translation>Antastungen</translation>
+    </message>
+    <message>
+        <source>Expansion / (µm/m)</source>
+        <translation>Ausdehnung / (µm/m)</translation>
+    </message>
+    <message>
+        <source>Expansion of the artefact</source>
+        <translation>Ausdehnung des Prüfkörpers</translation>
     </message>
 </context>
 <context>
@@ -26238,7 +26334,7 @@ ihrem Ordner und führen nicht hinaus.
     </message>
     <message>
         <source>Fit</source>
-        <translation>Fit</translation>
+        <translation>Anpassungsgüte</translation>
     </message>
     <message>
         <source>Peak to peak</source>
@@ -26262,7 +26358,7 @@ ihrem Ordner und führen nicht hinaus.
     </message>
     <message>
         <source>From %1 h on: rms %2 %3 with %4 measurements, %5 %3 without; fit %6 %, without %7 %.</source>
-        <translation>Ab %1 h: rms %2 %3 mit %4 Messungen, %5 %3 ohne; Fit %6 %, ohne %7 %.</translation>
+        <translation>Ab %1 h: rms %2 %3 mit %4 Messungen, %5 %3 ohne; Anpassungsgüte %6 %, ohne %7 %.</translation>
     </message>
     <message>
         <source>Measured</source>
@@ -26290,7 +26386,7 @@ ihrem Ordner und führen nicht hinaus.
     </message>
     <message>
         <source>Fit / %</source>
-        <translation>Fit / %</translation>
+        <translation>Anpassungsgüte / %</translation>
     </message>
     <message>
         <source>Peak to peak / %1</source>
@@ -26586,11 +26682,11 @@ ihrem Ordner und führen nicht hinaus.
     </message>
     <message>
         <source>Arrows %1 times larger than the deviation</source>
-        <translation>Pfeile %1-mal größer als die Abweichung</translation>
+        <translation>Pfeile %1-fach vergrößert</translation>
     </message>
     <message>
         <source>Height %1 times larger</source>
-        <translation>Höhe %1-mal größer</translation>
+        <translation>Höhe %1-fach überhöht</translation>
     </message>
     <message>
         <source>Faded: within %1 σ of zero; striped: outside the points</source>
@@ -26732,7 +26828,7 @@ ihrem Ordner und führen nicht hinaus.
     </message>
     <message>
         <source>Settles after</source>
-        <translation>Eingelaufen nach</translation>
+        <translation>Thermisch stabil nach</translation>
     </message>
     <message>
         <source>Verdict</source>
@@ -27033,10 +27129,6 @@ ihrem Ordner und führen nicht hinaus.
         <translation>Maschine</translation>
     </message>
     <message>
-        <source>Test part (of the kind of ISO 10791-7)</source>
-        <translation>Prüfwerkstück (nach Art der ISO 10791-7)</translation>
-    </message>
-    <message>
         <source>Feature</source>
         <translation>Merkmal</translation>
     </message>
@@ -27097,14 +27189,6 @@ ihrem Ordner und führen nicht hinaus.
         <translation>EC / µrad</translation>
     </message>
     <message>
-        <source>Characteristics of the test part</source>
-        <translation>Kenngrößen des Prüfwerkstücks</translation>
-    </message>
-    <message>
-        <source>Test part</source>
-        <translation>Prüfwerkstück</translation>
-    </message>
-    <message>
         <source>Deviations at the probing points</source>
         <translation>Abweichungen an den Messpunkten</translation>
     </message>
@@ -27143,6 +27227,18 @@ ihrem Ordner und führen nicht hinaus.
     <message>
         <source>; deviation along the bar %1 µm/m</source>
         <translation>; Abweichung entlang der Leiste %1 µm/m</translation>
+    </message>
+    <message>
+        <source>Test piece (of the kind of ISO 10791-7)</source>
+        <translation>Prüfwerkstück (nach Art der ISO 10791-7)</translation>
+    </message>
+    <message>
+        <source>Characteristics of the test piece</source>
+        <translation>Kenngrößen des Prüfwerkstücks</translation>
+    </message>
+    <message>
+        <source>Test piece</source>
+        <translation>Prüfwerkstück</translation>
     </message>
 </context>
 <context>

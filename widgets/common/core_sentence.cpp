@@ -214,7 +214,7 @@ class Catalogue {
     return text;
   }
 
-  /// "gain / µm/(m² K)".
+  /// "gain / (µm/(m² K))".
   Rendered titleWithUnit(const QString& english, int depth) {
     static const QString border = QStringLiteral(" / ");
     const qsizetype at = english.lastIndexOf(border);

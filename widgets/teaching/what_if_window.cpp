@@ -110,7 +110,7 @@ QString artefactName(const WhatIfArtefact& artefact) {
 }  // namespace
 
 TestPartView::TestPartView(QWidget* parent) : QWidget(parent) {
-  setAccessibleName(tr("Milled test part"));
+  setAccessibleName(tr("Milled test piece"));
   connect(&ThemeNotifier::instance(), &ThemeNotifier::changed, this, [this] { update(); });
 }
 
@@ -166,7 +166,7 @@ WhatIfWindow::WhatIfWindow(const MachineDescription& machine, WindowDraft draft,
   auto* machine_card = new Card(tr("Machine"));
   machine_card->body()->addWidget(view_, 1);
   part_view_ = new TestPartView;
-  auto* part_card = new Card(tr("Test part (of the kind of ISO 10791-7)"));
+  auto* part_card = new Card(tr("Test piece (of the kind of ISO 10791-7)"));
   part_card->body()->addWidget(part_view_, 1);
   auto* pictures = makeSplitter(nullptr, machine_card, part_card, 1, 1);
 
@@ -179,7 +179,7 @@ WhatIfWindow::WhatIfWindow(const MachineDescription& machine, WindowDraft draft,
       {tr("Feature"), tr("X / mm"), tr("Y / mm"), tr("Z / mm"), tr("EX / µm"), tr("EY / µm"), tr("EZ / µm"), QString()},
       this);
   tabs_ = makeTabs(nullptr);
-  tabs_->addTab(makeTable(part_rows_, tr("Characteristics of the test part")), tr("Test part"));
+  tabs_->addTab(makeTable(part_rows_, tr("Characteristics of the test piece")), tr("Test piece"));
   tabs_->addTab(makeTable(point_rows_, tr("Deviations at the probing points")), tr("Probing points"));
   auto* artefacts = new QWidget;
   auto* artefact_column = new QVBoxLayout(artefacts);

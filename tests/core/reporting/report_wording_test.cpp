@@ -32,11 +32,11 @@ TEST(PrintedText, EffectsHaveTheirTitleWithTheIdSmallBesideIt) {
 }
 
 TEST(PrintedText, ParametersAndSignalsAreWordsWithAUnit) {
-  EXPECT_EQ(parameterTitle("gain_um_per_m2_per_K"), "gain / µm/(m² K)");
-  EXPECT_EQ(parameterTitle("gain_um_per_m_per_m_per_min"), "gain / µm/((m/min) m)");
-  EXPECT_EQ(parameterTitle("gain_um_per_krpm"), "gain / µm/(1000 rpm)");
+  EXPECT_EQ(parameterTitle("gain_um_per_m2_per_K"), "gain / (µm/(m² K))");
+  EXPECT_EQ(parameterTitle("gain_um_per_m_per_m_per_min"), "gain / (µm/((m/min) m))");
+  EXPECT_EQ(parameterTitle("gain_um_per_krpm"), "gain / (µm/(1000 rpm))");
   EXPECT_EQ(parameterTitle("gain_um"), "gain / µm");
-  EXPECT_EQ(parameterTitle("gain_um_per_krpm1.5"), "gain / µm/(1000 rpm)¹·⁵");
+  EXPECT_EQ(parameterTitle("gain_um_per_krpm1.5"), "gain / (µm/(1000 rpm)¹·⁵)");
   EXPECT_EQ(parameterTitle("tau_on_s"), "time constant on / s");
   EXPECT_EQ(gainUnit("um_per_m2"), "µm/m²");
   EXPECT_EQ(gainUnit("um_per_m_lift"), "µm/m");

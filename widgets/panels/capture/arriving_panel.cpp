@@ -41,7 +41,7 @@ Cell stateCell(IncomingState state) {
     case IncomingState::Retake:
       return Cell{QChar(0x2715) + QStringLiteral(" ") + ArrivingPanel::tr("take again"), Tone::Bad};
     case IncomingState::Twice:
-      return Cell{ArrivingPanel::tr("twice")};
+      return Cell{ArrivingPanel::tr("duplicate")};
     case IncomingState::Ignored:
       return Cell{ArrivingPanel::tr("left aside")};
   }

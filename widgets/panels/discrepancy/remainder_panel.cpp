@@ -102,10 +102,11 @@ void RemainderPanel::show(const std::shared_ptr<const DiscrepancyStory>& story) 
   std::vector<std::string> names;
   for (const FoundEffect& e : story_->effects) names.push_back(e.id);
   const QString named = effectTitles(names, tr("and"));
-  sentence_->setText(remains.isEmpty() ? names.empty() ? tr("Nothing remains beyond the noise.")
-                                                       : tr("Beside %1 nothing remains beyond the noise.").arg(named)
+  sentence_->setText(remains.isEmpty() ? names.empty()
+                                             ? tr("Nothing remains beyond the noise.")
+                                             : tr("Apart from %1 nothing remains beyond the noise.").arg(named)
                      : names.empty() ? tr("Nothing can be named: the remainder is %1.").arg(remains)
-                                       : tr("Beside %1 the remainder is %2.").arg(named, remains));
+                                       : tr("Apart from %1 the remainder is %2.").arg(named, remains));
   if (story_->find(point_, component_) == nullptr && !story_->series.empty()) {
     const auto largest = std::max_element(story_->remainder.begin(), story_->remainder.end(),
                                           [](const auto& a, const auto& b) { return a.evidence < b.evidence; });

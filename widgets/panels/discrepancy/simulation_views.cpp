@@ -104,7 +104,7 @@ SimulationMaps::SimulationMaps(QWidget* parent) : QWidget(parent) {
 void SimulationMaps::show(const std::shared_ptr<const SimulationStory>& story, const MachineDescription& machine) {
   shown_ = false;
   for (View3D* view : views_) view->clear();
-  sayWhyEmpty(tr("The map is being worked out."));
+  sayWhyEmpty(tr("Calculating the map."));
   for (std::size_t i = 0; i < 2; ++i) cards_[i]->setTitle(i == 0 ? tr("Before") : tr("After"));
   work_.ask([this, story, machine]() -> std::function<void()> {
     const std::optional<FieldGrid> table = mapTable(machine, 0.0, report_map_nodes);

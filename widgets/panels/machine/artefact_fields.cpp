@@ -75,7 +75,7 @@ ArtefactFields::ArtefactFields(QWidget* parent) : QWidget(parent) {
   addField(form, 1, 1, tr("Expansion / (µm/(m·K))"), "expansion_um_per_m_K", 1, tr("Steel 11.5, Invar 1.2"));
   addField(form, 2, 0, tr("Temperature / °C"), "temperature_degC", 1, tr("Of the artefact, where no sensor says it"));
   addField(form, 2, 1, tr("Certificate ± / µm"), "certificate_uncertainty_um", 1,
-           tr("Standard uncertainty of a certified position"));
+           tr("Standard uncertainty of a calibrated position"));
   addField(form, 3, 0, tr("Hole diameter / mm"), "hole_diameter_mm", 1, {});
   addField(form, 3, 1, tr("Reference hole"), "reference_hole", 1, tr("H1, H2, …"));
   addField(form, 4, 0, tr("Reference at / mm"), "reference_in_table_mm", 3,
@@ -154,7 +154,7 @@ void ArtefactFields::show(const nlohmann::json& artefact) {
   features_->setRowCount(0);
   if (holes_) {
     features_->setColumnCount(2);
-    features_->setHorizontalHeaderLabels({tr("Hole"), tr("Certified position along the bar / mm")});
+    features_->setHorizontalHeaderLabels({tr("Hole"), tr("Calibrated position along the bar / mm")});
     const nlohmann::json list = artefact.value("nominal_positions_mm", nlohmann::json::array());
     features_->setRowCount(static_cast<int>(list.size()));
     for (int row = 0; row < features_->rowCount(); ++row) {
