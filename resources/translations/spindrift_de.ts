@@ -11338,7 +11338,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>linear scale</source>
-        <translation>Längenmesssystem</translation>
+        <translation>Maßstab</translation>
     </message>
     <message>
         <source>named</source>
@@ -21201,7 +21201,7 @@ ihrem Ordner und führen nicht hinaus.
     </message>
     <message>
         <source>linear scale</source>
-        <translation>Längenmesssystem</translation>
+        <translation>Maßstab</translation>
     </message>
     <message>
         <source>fiducial</source>
