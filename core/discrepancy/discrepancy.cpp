@@ -221,7 +221,7 @@ std::string sentenceOf(const DiscrepancyResult& result, const DiscrepancyOptions
       if (result.gap.withinNoise() && far != nullptr) {
         return fmt::format(
             "Nothing stands out of the scatter, but the readings of {} scatter {:.0f} times as much as their stated "
-            "sigma: what is smaller would not show.",
+            "σ: what is smaller would not show.",
             toString(far->component), far->scale);
       }
       return result.gap.withinNoise() ? "Measurement and simulation agree within the noise."

@@ -11453,7 +11453,7 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Die Rolle „{}“ des Sensors {} in machine.json ist keine der bekannten ({}): Nach Name oder Ort gilt er als {}.</translation>
     </message>
     <message>
-        <source>Nothing stands out of the scatter, but the readings of {} scatter {:.0f} times as much as their stated sigma: what is smaller would not show.</source>
+        <source>Nothing stands out of the scatter, but the readings of {} scatter {:.0f} times as much as their stated σ: what is smaller would not show.</source>
         <translation>Nichts hebt sich von der Streuung ab, aber die Messwerte von {} streuen {:.0f}-mal so stark wie ihr angegebenes σ: Was kleiner ist, fiele nicht auf.</translation>
     </message>
     <message>

@@ -359,7 +359,7 @@ TEST(BadInput, IsAnsweredAsFarAsPossible) {
     const DiscrepancyResult result = run(input);
     EXPECT_EQ(result.effects.empty() ? "" : result.effects[0].id, "spindle.drift.y") << factor;
     EXPECT_TRUE(std::any_of(result.warnings.begin(), result.warnings.end(),
-                            [](const std::string& w) { return w.find("stated sigma") != std::string::npos; }));
+                            [](const std::string& w) { return w.find("stated σ") != std::string::npos; }));
   }
   // One component alone.
   DiscrepancyInput one = inWorkshop(Hidden::SpindleDrift, 2, {});

@@ -68,7 +68,7 @@ TEST(Discrepancy, NothingMissingIsSaidWithTheScatterThatWouldHideIt) {
   const DiscrepancyResult result = run(std::move(input));
   EXPECT_EQ(result.verdict, DiscrepancyVerdict::None);
   EXPECT_EQ(result.message,
-            "Nothing stands out of the scatter, but the readings of EY scatter 10 times as much as their stated sigma: "
+            "Nothing stands out of the scatter, but the readings of EY scatter 10 times as much as their stated σ: "
             "what is smaller would not show.");
 }
 

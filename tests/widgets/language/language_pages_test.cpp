@@ -309,7 +309,7 @@ class UnitsTest : public StoryTest {
     wanted.units = {true, true, true};
     setPreferences(wanted);
     // Typed into a file: the unit is that of its key.
-    for (const char* field : {"Distance to ball 1 / mm", "Certificate ± / µm", "Certified position along the bar / mm",
+    for (const char* field : {"Distance to ball 1 / mm", "Certificate ± / µm", "Calibrated position along the bar / mm",
                               "Expansion / (µm/(m·K))", "Fixed bearing\n/ mm", "From\n/ mm", "Hole diameter / mm",
                               "Pitch\n/ mm", "Radius\n/ mm", "Reference at / mm", "Resolution\n/ µm",
                               "Temperature / °C", "To\n/ mm", "x / mm", "y / mm", "z / mm", "Ø / mm", "At / mm"})

@@ -44,7 +44,7 @@ std::span<const char* const> spindrift::gui::core_formats::discrepancy() noexcep
     QT_TRANSLATE_NOOP("core", "No parameter of {} is said to cause {}: it stays a fitted term; allowed: a parameter with this id among its \"effects\"."),
     QT_TRANSLATE_NOOP("core", "Not all values could be tried; what is found keeps to those that could. {}"),
     QT_TRANSLATE_NOOP("core", "Not to be decided, because the log lacks what drives {}: {}."),
-    QT_TRANSLATE_NOOP("core", "Nothing stands out of the scatter, but the readings of {} scatter {:.0f} times as much as their stated sigma: what is smaller would not show."),
+    QT_TRANSLATE_NOOP("core", "Nothing stands out of the scatter, but the readings of {} scatter {:.0f} times as much as their stated σ: what is smaller would not show."),
     QT_TRANSLATE_NOOP("core", "Nothing was named: there is nothing to put into the simulation."),
     QT_TRANSLATE_NOOP("core", "Only {} was observed: effects that differ in other components alone cannot be distinguished."),
     QT_TRANSLATE_NOOP("core", "Play between nut and screw: the axis stops on the side from which it came."),

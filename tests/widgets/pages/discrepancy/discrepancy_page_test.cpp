@@ -662,7 +662,7 @@ TEST(RemainderPanelTest, SaysWhatRemainsBesideWhatIsNamed) {
   story->effects = {e};
   panel.show(story);
   EXPECT_EQ(panel.sentence()->text(),
-            QString::fromUtf8("Beside growth of the spindle along Z the remainder is 0.80 µm rms in EX."));
+            QString::fromUtf8("Apart from growth of the spindle along Z the remainder is 0.80 µm rms in EX."));
 }
 
 TEST(WhatPanelTest, MarksTheNamedAmongTheCandidatesAndSaysWhatRemains) {
