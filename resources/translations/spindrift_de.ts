@@ -11850,7 +11850,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>Environmental temperature variation error (ETVE), µm or µrad</source>
-        <translation>Abweichung durch Schwankung der Umgebungstemperatur (ETVE), µm oder µrad</translation>
+        <translation>Abweichung durch Änderung der Umgebungstemperatur (ETVE), µm oder µrad</translation>
     </message>
     <message>
         <source>Outdated. Changed since the calculation: {}.</source>
@@ -26682,7 +26682,7 @@ ihrem Ordner und führen nicht hinaus.
     </message>
     <message>
         <source>Arrows %1 times larger than the deviation</source>
-        <translation>Pfeile %1-fach vergrößert</translation>
+        <translation>Pfeile gegenüber der Abweichung %1-fach vergrößert</translation>
     </message>
     <message>
         <source>Height %1 times larger</source>
