@@ -183,13 +183,15 @@ TEST_F(LargeCampaignTest, AnotherSessionAndEditsMeanwhileAreNotUndoneByWhatWasRe
   EXPECT_TRUE(window_->welcomeShown());
 }
 
-/// Processor time of `work`, ms: the least of several times, as other programs only add to it.
+/// Processor time of `work`, ms: the least of several times, as other programs only add to it, each of several runs, as
+/// one is hardly longer than what the clock of the processor and its caches add.
 double leastMs(const std::function<void()>& work) {
+  constexpr int runs = 6;
   double least = 1e300;
   for (int i = 0; i < 9; ++i) {
     const std::clock_t begin = std::clock();
-    work();
-    least = std::min(least, 1e3 * static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC);
+    for (int run = 0; run < runs; ++run) work();
+    least = std::min(least, 1e3 * static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC / runs);
   }
   return least;
 }
@@ -202,28 +204,37 @@ std::map<std::string, double> costsOfEdits(const std::filesystem::path& sessions
   const std::int64_t id = session->importCampaign(campaign, job);
   SessionModel model;
   model.adopt(loadSession(std::move(session), id));
-  std::map<std::string, double> ms;
+  std::map<std::string, std::function<void()>> edits;
   model.setExcluded({{QStringLiteral("M3/P2/EZ"), QStringLiteral("disturbed")}});
   bool out = false;
-  ms["a reading excluded"] = leastMs([&] {
+  edits["a reading excluded"] = [&] {
     out = !out;
     model.setExcluded({{QStringLiteral("M4/P2/EZ"), out ? QStringLiteral("disturbed") : QString()}});
     (void)model.observations();
-  });
+  };
   nlohmann::json machine = model.campaign()->machine.source;
-  int edits = 0;
-  ms["the machine edited"] = leastMs([&] {
-    machine["name"] = "edited " + std::to_string(++edits);
+  int count = 0;
+  edits["the machine edited"] = [&] {
+    machine["name"] = "edited " + std::to_string(++count);
     model.setMachine(machine);
     (void)model.observations();
-  });
-  ms["a note written"] = leastMs([&] { (void)model.addNote({0, "Model", "warm", "2026-01-31T08:00:00Z", {}}); });
-  ms["an option chosen"] = leastMs([&] { model.setSetting("an option", ++edits); });
-  ms["a job started"] = leastMs([&] {
+  };
+  edits["a note written"] = [&] { (void)model.addNote({0, "Model", "warm", "2026-01-31T08:00:00Z", {}}); };
+  edits["an option chosen"] = [&] { model.setSetting("an option", ++count); };
+  edits["a job started"] = [&] {
     (void)model.snapshot();
     (void)model.taskInputs();
-  });
-  ms["a report begun"] = leastMs([&] { (void)ReportTask::of(model.tasks(), model.excludedItems()); });
+  };
+  edits["a report begun"] = [&] { (void)ReportTask::of(model.tasks(), model.excludedItems()); };
+  // In rounds: a processor that is shared for a while is so for one of them.
+  std::map<std::string, double> ms;
+  for (int round = 0; round < 3; ++round) {
+    for (const auto& [edit, work] : edits) {
+      const double took = leastMs(work);
+      const auto [at, first] = ms.try_emplace(edit, took);
+      if (!first) at->second = std::min(at->second, took);
+    }
+  }
   // What is given out is what was edited.
   EXPECT_EQ(model.observations()->rows[3 * 18 + 5].use, ObservationUse::Exclude);
   EXPECT_EQ(model.snapshot().campaign->machine.name, machine.at("name"));
