@@ -149,7 +149,8 @@ TEST(Verify, TheSameDataTwiceIsNoProof) {
     (void)verifyCompensation(before, before, {});
     ADD_FAILURE() << "accepted";
   } catch (const InputError& e) {
-    EXPECT_NE(std::string(e.what()).find("all 24 values equal those before compensation"), std::string::npos) << e.what();
+    EXPECT_NE(std::string(e.what()).find("all 24 values equal those before compensation"), std::string::npos)
+        << e.what();
   }
   // Some of them copied: said.
   ObservationSet after = measured(2.0, 0.2, 2);
