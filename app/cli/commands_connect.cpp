@@ -7,9 +7,9 @@
 #include "app/cli/command.h"
 #include "core/base/count_text.h"
 #include "core/base/error.h"
+#include "core/base/utc_time.h"
 #include "core/connect/genicam_camera.h"
 #include "core/connect/recording.h"
-#include "core/connect/utc_time.h"
 #include "core/session/session.h"
 #include "core/tasks/task_options.h"
 

@@ -18,7 +18,7 @@
 #include "core/base/atomic_file.h"
 #include "core/base/count_text.h"
 #include "core/base/error.h"
-#include "core/connect/utc_time.h"
+#include "core/base/utc_time.h"
 #include "core/plant/batch_engine.h"
 #include "core/plant/batch_worker.h"
 #include "core/plant/plant_overview.h"

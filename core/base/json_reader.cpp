@@ -34,6 +34,38 @@ std::string shortDump(const nlohmann::json& value) {
   return text;
 }
 
+/// Where a parser is: the objects and lists that are open, and what of them it reads.
+class OpenLevels {
+ public:
+  using Event = nlohmann::json::parse_event_t;
+  /// False: a key that its object has already.
+  bool take(Event event, const nlohmann::json& parsed) {
+    if (event == Event::object_start || event == Event::array_start) levels_.push_back({event == Event::array_start});
+    if (event == Event::key) {
+      levels_.back().key = parsed.get<std::string>();
+      return levels_.back().keys.insert(levels_.back().key).second;
+    }
+    if (event == Event::object_end || event == Event::array_end) levels_.pop_back();
+    if (event != Event::object_start && event != Event::array_start && !levels_.empty()) ++levels_.back().index;
+    return true;
+  }
+  [[nodiscard]] std::string path() const {
+    std::string path = "$";
+    for (const Level& level : levels_)
+      path += level.list ? fmt::format("[{}]", level.index) : level.key.empty() ? "" : "." + level.key;
+    return path;
+  }
+
+ private:
+  struct Level {
+    bool list = false;
+    std::set<std::string> keys = {};
+    std::string key = {};
+    std::size_t index = 0;
+  };
+  std::vector<Level> levels_;
+};
+
 /// Bytes of a file that is read as JSON.
 constexpr std::size_t largest_json_file = 500'000'000;
 
@@ -49,14 +81,12 @@ JsonNode JsonNode::parse(std::string_view text, const std::filesystem::path& nam
                                              "that.",
                                              most_levels_of_json));
   }
-  std::vector<std::set<std::string>> keys;
+  OpenLevels levels;
   const auto watch = [&](int, nlohmann::json::parse_event_t event, nlohmann::json& parsed) {
-    using Event = nlohmann::json::parse_event_t;
-    if (event == Event::object_start) keys.emplace_back();
-    if (event == Event::object_end) keys.pop_back();
-    if (event == Event::key && !keys.back().insert(parsed.get<std::string>()).second) {
-      throw InputError({name, ""}, fmt::format("key \"{}\" appears twice in one object; allowed: each key once.",
-                                               parsed.get<std::string>()));
+    if (!levels.take(event, parsed)) {
+      throw InputError(
+          {name, levels.path()},
+          fmt::format("key \"{}\" appears twice in one object; allowed: each key once.", parsed.get<std::string>()));
     }
     return true;
   };
@@ -73,8 +103,10 @@ JsonNode JsonNode::parse(std::string_view text, const std::filesystem::path& nam
                       static_cast<unsigned>(static_cast<unsigned char>(text[bad]))));
     }
     throw InputError(placeOfByte(text, error.byte, name), "is not valid JSON here; allowed: JSON (RFC 8259), no NaN.");
+  } catch (const nlohmann::json::out_of_range&) {
+    throw InputError({name, levels.path()}, "is a number too large for any computer; allowed: finite numbers.");
   } catch (const nlohmann::json::exception& error) {
-    throw InputError({name, ""}, fmt::format("is not valid JSON ({}).", error.what()));
+    throw InputError({name, levels.path()}, fmt::format("is not valid JSON ({}).", error.what()));
   }
 }
 

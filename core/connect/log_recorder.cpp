@@ -11,7 +11,7 @@
 #include "core/base/csv.h"
 #include "core/base/text.h"
 #include "core/base/untrusted_text.h"
-#include "core/connect/utc_time.h"
+#include "core/base/utc_time.h"
 #include "core/machine/operating_log.h"
 
 namespace spindrift {

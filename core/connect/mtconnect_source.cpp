@@ -19,7 +19,7 @@
 
 #include "core/base/steady_seconds.h"
 #include "core/base/text.h"
-#include "core/connect/utc_time.h"
+#include "core/base/utc_time.h"
 
 namespace spindrift {
 namespace {

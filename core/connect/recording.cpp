@@ -7,7 +7,7 @@
 #include <thread>
 
 #include "core/base/json_reader.h"
-#include "core/connect/utc_time.h"
+#include "core/base/utc_time.h"
 
 namespace spindrift {
 namespace {

@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "core/base/inside_folder.h"
+#include "core/base/utc_time.h"
 #include "core/machine/observation_plausibility.h"
 
 namespace spindrift {
@@ -23,8 +24,10 @@ bool isUtc(std::string_view text) {
     if (form[i] == 'd' ? !digit(text[i]) : text[i] != form[i]) return false;
   }
   const std::string_view decimals = text.substr(form.size(), text.size() - form.size() - 1);
-  return decimals.empty() ||
-         (decimals.size() > 1 && decimals.front() == '.' && std::all_of(decimals.begin() + 1, decimals.end(), digit));
+  if (!decimals.empty() &&
+      (decimals.size() < 2 || decimals.front() != '.' || !std::all_of(decimals.begin() + 1, decimals.end(), digit)))
+    return false;
+  return parseUtc(text).has_value();  // the 30th of February is no day
 }
 
 /// A log that a recording has begun (core/connect/log_recorder.h: its first line says where time_s is 0) and that has

@@ -12,7 +12,7 @@
 #include "core/base/random.h"
 #include "core/base/text.h"
 #include "core/base/unit_text.h"
-#include "core/connect/utc_time.h"
+#include "core/base/utc_time.h"
 #include "core/math/distributions.h"
 #include "core/workflows/campaign_series.h"
 

@@ -14,7 +14,7 @@
 #include "core/base/json_reader.h"
 #include "core/base/text.h"
 #include "core/base/unit_text.h"
-#include "core/connect/utc_time.h"
+#include "core/base/utc_time.h"
 #include "core/math/statistics.h"
 #include "core/reporting/plot_picture.h"
 #include "core/reporting/report.h"

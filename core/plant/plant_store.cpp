@@ -16,7 +16,7 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/base/untrusted_text.h"
-#include "core/connect/utc_time.h"
+#include "core/base/utc_time.h"
 #include "core/plant/plant_connection.h"
 #include "core/plant/plant_schema.h"
 

@@ -11,7 +11,7 @@
 #include <map>
 
 #include "core/base/error.h"
-#include "core/connect/utc_time.h"
+#include "core/base/utc_time.h"
 #include "core/machine/campaign.h"
 #include "core/plant/plant_connection.h"
 #include "core/session/fingerprint.h"

@@ -17,7 +17,7 @@
 #include "core/base/csv.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/connect/utc_time.h"
+#include "core/base/utc_time.h"
 #include "core/control/private_control.h"
 #include "core/workflows/machine_beside_control.h"
 

@@ -18,6 +18,7 @@
 #include "core/base/sha256.h"
 #include "core/base/text.h"
 #include "core/base/untrusted_text.h"
+#include "core/base/utc_time.h"
 #include "core/imaging/capture_verdict.h"
 #include "core/imaging/evaluate_fiducials.h"
 #include "core/imaging/fiducial_captures.h"
@@ -78,12 +79,6 @@ IncomingKind kindOf(const std::filesystem::path& file, bool printed) {
     return IncomingKind::Cloud;
   }
   return IncomingKind::Other;
-}
-
-double unixSeconds(const std::string& utc) {
-  std::tm parts{};
-  if (::strptime(utc.c_str(), "%Y-%m-%dT%H:%M:%S", &parts) == nullptr) return 0.0;
-  return static_cast<double>(::timegm(&parts));
 }
 
 /// What stored names carry of a hash.
@@ -322,7 +317,7 @@ std::string toString(IncomingState state) {
 IncomingContext::IncomingContext(const Campaign& campaign, MeasurementPlan plan,
                                  const std::vector<IncomingItem>& journal, bool printed)
     : campaign_folder_(campaign.folder),
-      start_unix_s_(unixSeconds(campaign.start_utc)),
+      start_unix_s_(parseUtc(campaign.start_utc).value_or(0.0)),
       printed_(printed),
       excluded_(campaign.excluded_captures),
       plan_(std::move(plan)),

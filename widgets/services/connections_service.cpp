@@ -6,9 +6,9 @@
 #include <utility>
 
 #include "core/base/error.h"
+#include "core/base/utc_time.h"
 #include "core/connect/connections.h"
 #include "core/connect/unit_conversion.h"
-#include "core/connect/utc_time.h"
 #include "core/machine/operating_log.h"
 #include "core/session/session.h"
 #include "core/tasks/task_options.h"

@@ -51,6 +51,9 @@ TEST(JsonReader, RefusesBytesThatAreNoUtf8AndSaysWhere) {
 TEST(JsonReader, RefusesADuplicateKeyAtAnyDepth) {
   EXPECT_THAT(jsonComplaint(R"({"a":1,"a":2})"), HasSubstr("\"a\" appears twice"));
   EXPECT_THAT(jsonComplaint(R"({"x":{"b":1},"y":{"b":1,"b":3}})"), HasSubstr("\"b\" appears twice"));
+  EXPECT_THAT(jsonComplaint(R"({"axes":[{"name":"X"},{"name":"Y","name":"Z"}]})"), HasSubstr("$.axes[1].name"));
+  EXPECT_THAT(jsonComplaint(R"({"a":[1,{"b":1e999}]})"),
+              ::testing::AllOf(HasSubstr("$.a[1].b"), HasSubstr("too large")));
   EXPECT_EQ(jsonComplaint(R"({"x":{"b":1},"y":{"b":1}})"), "no complaint");
 }
 

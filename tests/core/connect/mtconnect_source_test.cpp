@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "core/connect/utc_time.h"
+#include "core/base/utc_time.h"
 #include "tests/core/connect/collected.h"
 #include "tests/core/connect/small_agent.h"
 

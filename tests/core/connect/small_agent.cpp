@@ -13,7 +13,7 @@
 #include <chrono>
 #include <map>
 
-#include "core/connect/utc_time.h"
+#include "core/base/utc_time.h"
 
 namespace spindrift::testing {
 namespace {

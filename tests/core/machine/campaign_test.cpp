@@ -89,6 +89,8 @@ TEST(Campaign, BadFilesAreNamed) {
   };
   EXPECT_THAT(complaint(R"({"format":"spindrift-campaign","version":1,"name":"c","start_utc":"31.1.2026"})"),
               HasSubstr("$.start_utc"));
+  EXPECT_THAT(complaint(R"({"format":"spindrift-campaign","version":1,"name":"c","start_utc":"2026-02-30T08:00:00Z"})"),
+              HasSubstr("$.start_utc"));
   EXPECT_THAT(complaint(R"({"format":"spindrift-campaign","version":1,"name":"c","start_utc":"2026-01-31T08:00:00Z"})"),
               HasSubstr("machine.json"));
   EXPECT_THROW((void)Campaign::read(folder / "missing"), InputError);

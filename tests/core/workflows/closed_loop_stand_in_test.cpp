@@ -16,7 +16,7 @@
 #include "core/base/error.h"
 #include "core/base/random.h"
 #include "core/base/text.h"
-#include "core/connect/utc_time.h"
+#include "core/base/utc_time.h"
 #include "core/machine/campaign.h"
 #include "core/workflows/closed_loop.h"
 #include "core/workflows/closed_loop_demo.h"

@@ -29,7 +29,7 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/base/unit_text.h"
-#include "core/connect/utc_time.h"
+#include "core/base/utc_time.h"
 #include "core/plant/publish.h"
 #include "widgets/common/core_sentence.h"
 #include "widgets/common/demo_names.h"

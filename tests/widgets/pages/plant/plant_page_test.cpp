@@ -22,7 +22,7 @@
 
 #include "core/base/atomic_file.h"
 #include "core/base/random.h"
-#include "core/connect/utc_time.h"
+#include "core/base/utc_time.h"
 #include "core/plant/batch_queue.h"
 #include "core/plant/plant_store.h"
 #include "tests/support/session_steps.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "core/connect/utc_time.h"
+#include "core/base/utc_time.h"
 
 #include <fmt/format.h>
 
