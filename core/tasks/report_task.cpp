@@ -51,6 +51,8 @@ StoredResults storedOf(const TaskGraph& graph) {
       fit != nullptr && taskKind("fit", graph.facts()).told && graph.holds(*fit))
     out.fit = fit->payload;
   out.thermal = payload("thermal");
+  if (chosen<Iso230Choice>(graph.session(), graph.campaign()).told(graph.data()))
+    out.standard_test = payload("iso-230-3");
   out.compensation = payload("compensation");
   out.log_compensation = payload("log-compensation");
   out.verification = payload("verify");
@@ -96,7 +98,8 @@ ReportTask ReportTask::of(const TaskGraph& graph, const ExcludedItems& excluded)
   task.options.search.reject = asked.effects.rejected;
   task.options.fit = asked.fit.options();
   task.options.fit.state.clear();
-  task.options.iso230 = [choice = asked.iso230](const TimeSeries& series) { return choice.request(series); };
+  if (asked.iso230.told(graph.data()))
+    task.options.iso230 = [choice = asked.iso230](const TimeSeries& series) { return choice.request(series); };
   task.options.exclusions.assign(excluded.begin(), excluded.end());
   task.options.notes = asked.notes;
   return task;

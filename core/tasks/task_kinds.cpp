@@ -23,6 +23,7 @@
 #include "core/workflows/evaluate_campaign.h"
 #include "core/workflows/fit_campaign.h"
 #include "core/workflows/simulation_story.h"
+#include "core/workflows/thermal_tests.h"
 #include "core/workflows/verify_compensation.h"
 
 namespace spindrift {
@@ -327,6 +328,21 @@ struct Thermal {
   }
 };
 
+struct ThermalTest {
+  static Iso230Choice options(const TaskGraph& graph) { return chosenFor<Iso230Choice>(graph); }
+  static Work<StandardTest> work(const Iso230Choice& choice, const TaskGraph& /*graph*/, const TaskInputs& in) {
+    return [campaign = included(in), observations = in.observations, read = in.series, choice](JobContext& job,
+                                                                                               TaskOutput) {
+      const auto series =
+          read != nullptr
+              ? read
+              : std::make_shared<const TimeSeries>(campaignSeries(*campaign, observations.get(), job).series);
+      return standardTestOf(*series, [&](const TimeSeries& of) { return choice.request(of); });
+    };
+  }
+  static nlohmann::json payload(const StandardTest& test) { return test.json(); }
+};
+
 struct CompensateLog : WithoutOptions {
   static constexpr auto model = "thermal";
   static Work<LogCompensation> work(NoOptions /*options*/, const TaskGraph& graph, const TaskInputs& in) {
@@ -470,6 +486,7 @@ struct WriteReport {
     TaskIds first;
     if (wanted("fit", taskKind("fit", graph.facts()).told && graph.latest("fit") != nullptr)) first.emplace_back("fit");
     if (wanted("discrepancy", options(graph).tells_discrepancy)) first.emplace_back("discrepancy");
+    if (wanted("iso-230-3", options(graph).iso230.told(graph.data()))) first.emplace_back("iso-230-3");
     return first;
   }
   static std::string blocked(const TaskGraph& graph) {
@@ -511,6 +528,7 @@ constexpr std::array kinds{
                            .blocked = withoutCaptures}),
     declared<CheckTouches>({.id = "check",
                             .title = "Checking the touches",
+                            .revision = 2,
                             .is_for = ofTouches,
                             .belongs = ofCaptures,
                             .blocked = withoutCaptures}),
@@ -525,7 +543,7 @@ constexpr std::array kinds{
                         .blocked = withoutCaptures}),
     declared<Evaluate>({.id = "evaluate",
                         .title = "Evaluating the touches",
-                        .revision = 2,
+                        .revision = 3,
                         .is_for = ofTouches,
                         .belongs = ofCaptures,
                         .blocked = withoutCaptures}),
@@ -558,7 +576,7 @@ constexpr std::array kinds{
     declared<FitCycles>({.id = "fit",
                          .title = "Fitting all cycles",
                          .result = "the fitted model",
-                         .revision = 3,
+                         .revision = 4,
                          .of_observations = true,
                          .told = true,
                          .is_for = ofTouches,
@@ -573,6 +591,7 @@ constexpr std::array kinds{
                              .made_from = fromCaptures}),
     declared<FitNineParameters>({.id = "fit",
                                  .title = "Fitting the nine-parameter model",
+                                 .revision = 2,
                                  .of_observations = true,
                                  .belongs = moreThanALog,
                                  .made_from = fromCaptures}),
@@ -584,6 +603,13 @@ constexpr std::array kinds{
                        .belongs = withLog,
                        .blocked = Thermal::blocked,
                        .made_from = fromCaptures}),
+    declared<ThermalTest>({.id = "iso-230-3",
+                           .title = "Evaluating the test of ISO 230-3",
+                           .result = "the test of ISO 230-3",
+                           .told = true,
+                           .belongs = withLog,
+                           .blocked = Thermal::blocked,
+                           .made_from = fromCaptures}),
     declared<CompensateLog>({.id = "log-compensation",
                              .title = "Running the compensator",
                              .result = "the compensation over the log",
@@ -593,7 +619,7 @@ constexpr std::array kinds{
                              .made_from = CompensateLog::madeFrom}),
     declared<Discrepancy>({.id = "discrepancy",
                            .title = "Searching for what the simulation lacks",
-                           .revision = 5,
+                           .revision = 6,
                            .of_observations = true,
                            .belongs = withSimulation,
                            .blocked = Discrepancy::blocked,
@@ -601,7 +627,7 @@ constexpr std::array kinds{
     declared<Simulation>({.id = "simulation",
                           .title = "Searching with the simulator",
                           .result = "the search with the simulator",
-                          .revision = 2,
+                          .revision = 3,
                           .of_observations = true,
                           .told = true,
                           .starts_programs = true,
@@ -613,6 +639,7 @@ constexpr std::array kinds{
     declared<Compensation>({.id = "compensation",
                             .title = "Calculating the compensation",
                             .result = "the compensation",
+                            .revision = 2,
                             .of_observations = true,
                             .told = true,
                             .belongs = moreThanALog,
@@ -622,7 +649,7 @@ constexpr std::array kinds{
     declared<Verify>({.id = "verify",
                       .title = "Comparing before and after",
                       .result = "the comparison of before and after",
-                      .revision = 2,
+                      .revision = 3,
                       .of_observations = true,
                       .told = true,
                       .belongs = moreThanALog,

@@ -19,6 +19,7 @@
 #include "core/base/sha256.h"
 #include "core/session/fingerprint.h"
 #include "core/workflows/campaign_series.h"
+#include "core/workflows/log_campaign.h"
 
 namespace spindrift {
 
@@ -250,8 +251,15 @@ Iso230Request Iso230Choice::request(const TimeSeries& series) const {
     r.without_ambient = ambient->empty();
   }
   if (series.find(speed) != nullptr) r.speed = speed;
+  // As it is offered: that of the spindle by its name, else the first.
+  for (const Signal& s : series.signals)
+    if (r.speed.empty() && s.kind == SignalKind::Speed && series.find("spindle_rpm") == nullptr) r.speed = s.name;
   if (!range.empty()) r.range = TimeRange::parse(range, "The range of the test");
   return r;
+}
+
+bool Iso230Choice::told(const Campaign& campaign) const {
+  return campaign.log && (hasOutputSignals(*campaign.log) || *this != Iso230Choice());
 }
 
 CompensationTaskOptions CompensationTaskOptions::of(const Session& session, std::int64_t campaign, bool fitted) {

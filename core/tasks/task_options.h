@@ -137,6 +137,8 @@ struct Iso230Choice {
 
   /// Throws InputError for a range that cannot be read. The test may be empty: the log is a record of none.
   [[nodiscard]] Iso230Request request(const TimeSeries& series) const;
+  /// Whether a report of the campaign tells this test: of displacements in its log, or chosen by hand.
+  [[nodiscard]] bool told(const Campaign& campaign) const;
   bool operator==(const Iso230Choice&) const = default;
   template <class Options, class Visitor>
   static void fields(Options& o, const Visitor& visit) {

@@ -31,6 +31,7 @@
 #include "core/workflows/discrepancy_workflow.h"
 #include "core/workflows/instrument_checks.h"
 #include "core/workflows/nine_parameter_maps.h"
+#include "core/workflows/thermal_tests.h"
 
 namespace spindrift {
 
@@ -90,8 +91,8 @@ struct TaskResult {
   using OneOf = std::variant<std::monostate, std::shared_ptr<const Types>...>;
   nlohmann::json payload;
   OneOf<CheckedCaptures, TouchEvaluation, ScanChecks, EvaluationDetail, CheckResult, AxisErrorResult,
-        NineParameterResult, IdentifyResult, LogCompensation, DiscrepancyStory, DiscrepancyRun, CompensationPlan,
-        VerifyResult, WrittenReport>
+        NineParameterResult, IdentifyResult, StandardTest, LogCompensation, DiscrepancyStory, DiscrepancyRun,
+        CompensationPlan, VerifyResult, WrittenReport>
       detail;
   /// Null if the detail is another, or there is none.
   template <class T>

@@ -262,6 +262,34 @@ int signOf(const AxisReading& r) {
   return r.direction >= 0 ? 1 : -1;
 }
 
+/// The positions at both ends of travel, mm. Readings within a millimetre (a hundredth of the travel, where that is
+/// less) of an end are at one position, their mean: a measured position is not the same number twice.
+std::pair<double, double> atBothEnds(std::vector<AxisReading>& readings) {
+  const auto [low, high] = std::minmax_element(
+      readings.begin(), readings.end(), [](const auto& a, const auto& b) { return a.position_mm < b.position_mm; });
+  const double low_mm = low->position_mm;
+  const double high_mm = high->position_mm;
+  if (high_mm - low_mm < 1e-6)
+    throw InputError("all readings were taken at one position; allowed: two positions near the ends of travel.");
+  const double near_mm = std::min(1.0, 0.01 * (high_mm - low_mm));
+  const auto gathered = [&](double end_mm) {
+    const auto here = [&](const AxisReading& r) { return std::abs(r.position_mm - end_mm) <= near_mm; };
+    double sum = 0.0;
+    double count = 0.0;
+    for (const AxisReading& r : readings) {
+      if (!here(r)) continue;
+      sum += r.position_mm - end_mm;
+      count += 1.0;
+    }
+    const double mean_mm = end_mm + sum / count;
+    for (AxisReading& r : readings)
+      if (here(r)) r.position_mm = mean_mm;
+    return mean_mm;
+  };
+  const double at_low_mm = gathered(low_mm);
+  return {at_low_mm, gathered(high_mm)};
+}
+
 /// Readings of a position by point and direction, each in order of time.
 using AxisSeries = std::map<std::pair<std::string, int>, std::vector<AxisReading>>;
 
@@ -474,16 +502,14 @@ EtveResult evaluateEtve(std::span<const double> time_s, const std::vector<Compon
   EtveResult result;
   result.window_s = window_s;
   result.duration_s = time_s.back() - time_s.front();
+  double ambient_sigma_K = 0.0;  // of one reading
   if (!ambient.empty()) {
     SPINDRIFT_ASSERT(ambient.size() == time_s.size(), "ambient and time differ in length");
-    double low = std::numeric_limits<double>::infinity();
-    double high = -low;
-    for (const double t : ambient) {
-      if (!std::isfinite(t)) continue;
-      low = std::min(low, t);
-      high = std::max(high, t);
-    }
-    result.temperature_range_K = high >= low ? high - low : 0.0;
+    const std::vector<double> values(ambient.begin(), ambient.end());
+    ambient_sigma_K = readingSigma({"ambient", "K", values});
+    const Range range = rangeOf(time_s, values, window_s, time_s.front(), time_s.back(), ambient_sigma_K);
+    result.temperature_range_K = range.size;
+    result.temperature_range_sigma_K = range.sigma;
   }
   if (result.duration_s < 4.0 * 3600.0)
     result.note = "the test is shorter than 4 h: slow influences of the environment are not in it.";
@@ -503,16 +529,27 @@ EtveResult evaluateEtve(std::span<const double> time_s, const std::vector<Compon
     out.range = range.size;
     out.range_sigma = range.sigma;
     out.range_per_K = std::nan("");
+    out.range_per_K_sigma = std::nan("");
     out.slope_per_K = std::nan("");
     out.slope_sigma = std::nan("");
     if (result.temperature_range_K > 1e-6 && n > 2.0) {
       out.range_per_K = out.range / result.temperature_range_K;
+      out.range_per_K_sigma =
+          std::hypot(out.range_sigma, out.range_per_K * result.temperature_range_sigma_K) / result.temperature_range_K;
       for (std::size_t i = 0; i < c.values.size(); ++i) {
         if (!std::isfinite(c.values[i]) || !std::isfinite(ambient[i])) continue;
         stt += (ambient[i] - st / n) * (ambient[i] - st / n);
         sty += (ambient[i] - st / n) * (c.values[i] - sy / n);
       }
-      out.slope_per_K = sty / stt;
+      // What noise of the thermometer adds to the squares would flatten the slope (errors in variables, of known
+      // variance: Fuller 1987, Measurement Error Models, 1.2). Where most of them are noise, nothing is known.
+      constexpr double least_told = 0.5;
+      const double told = stt - (n - 1.0) * ambient_sigma_K * ambient_sigma_K;
+      if (!(told > least_told * stt)) {
+        result.components.push_back(out);
+        continue;
+      }
+      out.slope_per_K = sty / told;
       double rest = 0.0;
       for (std::size_t i = 0; i < c.values.size(); ++i) {
         if (!std::isfinite(c.values[i]) || !std::isfinite(ambient[i])) continue;
@@ -521,7 +558,7 @@ EtveResult evaluateEtve(std::span<const double> time_s, const std::vector<Compon
       }
       // Readings of a slow process are not independent: at most one in ten minutes counts.
       const double independent = std::min(n, result.duration_s / 600.0);
-      out.slope_sigma = std::sqrt(rest / n / stt * n / std::max(1.0, independent - 2.0));
+      out.slope_sigma = std::sqrt(rest / n / told * n / std::max(1.0, independent - 2.0));
     }
     result.components.push_back(out);
   }
@@ -561,6 +598,7 @@ SpindleResult evaluateRotatingSpindle(std::span<const double> time_s, std::span<
     const Level zero = levelAt(time_s, c.values, start, still_before ? start - window_s : time_s.front(),
                                still_before ? start : start + window_s);
     const Level end = levelAt(time_s, c.values, stop, std::max(start, stop - window_s), stop);
+    const bool cools = time_s.back() > stop;  // else nothing was recorded after the stop
     const Level cooled = levelAt(time_s, c.values, time_s.back(),
                                  std::min(time_s.back(), std::max(stop, time_s.back() - window_s)), time_s.back());
     const double hour = start + 3600.0;
@@ -568,11 +606,11 @@ SpindleResult evaluateRotatingSpindle(std::span<const double> time_s, std::span<
         levelAt(time_s, c.values, hour, std::max(start, hour - 0.5 * window_s), std::min(stop, hour + 0.5 * window_s));
     out.at_end = end.value - zero.value;
     out.first_hour = stop >= hour ? after_hour.value - zero.value : std::nan("");
-    out.after_cooling = cooled.value - zero.value;
+    out.after_cooling = cools ? cooled.value - zero.value : std::nan("");
     const double reading_sigma = readingSigma(c);
     out.change_sigma = std::sqrt(zero.variance + end.variance) * reading_sigma;
     out.first_hour_sigma = stop >= hour ? std::sqrt(zero.variance + after_hour.variance) * reading_sigma : std::nan("");
-    out.after_cooling_sigma = std::sqrt(zero.variance + cooled.variance) * reading_sigma;
+    out.after_cooling_sigma = cools ? std::sqrt(zero.variance + cooled.variance) * reading_sigma : std::nan("");
     out.time_to_fraction_s = std::nan("");
     const LevelFilter filter(time_s, c.values, window_s, start, stop);
     const std::vector<double> levels = filter.levels(filter.kept(c.values));
@@ -586,6 +624,10 @@ SpindleResult evaluateRotatingSpindle(std::span<const double> time_s, std::span<
     const auto range = rangeOf(time_s, c.values, window_s, start, stop, reading_sigma);
     out.range = range.size;
     out.range_sigma = range.sigma;
+    const auto of_hour = stop >= hour ? rangeOf(time_s, c.values, window_s, start, hour, reading_sigma)
+                                      : Range{std::nan(""), std::nan("")};
+    out.first_hour_range = of_hour.size;
+    out.first_hour_range_sigma = of_hour.sigma;
     result.components.push_back(out);
   }
   return result;
@@ -597,12 +639,7 @@ AxisResult evaluateMovingAxis(std::vector<AxisReading> readings) {
         fmt::format("readings of the axis: {}; allowed: at least 4 at each of two positions.", readings.size()));
   std::stable_sort(readings.begin(), readings.end(),
                    [](const AxisReading& a, const AxisReading& b) { return a.time_s < b.time_s; });
-  const auto [low, high] = std::minmax_element(
-      readings.begin(), readings.end(), [](const auto& a, const auto& b) { return a.position_mm < b.position_mm; });
-  const double low_mm = low->position_mm;
-  const double high_mm = high->position_mm;
-  if (high_mm - low_mm < 1e-6)
-    throw InputError("all readings were taken at one position; allowed: two positions near the ends of travel.");
+  const auto [low_mm, high_mm] = atBothEnds(readings);
   AxisResult result;
   result.low = evaluatePosition(readings, low_mm);
   result.high = evaluatePosition(readings, high_mm);

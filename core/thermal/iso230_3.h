@@ -33,13 +33,16 @@ struct EtveComponent {
   double range = 0.0;  ///< largest minus smallest over the test
   double range_sigma = 0.0;
   double range_per_K = 0.0;  ///< range over the range of the ambient temperature; NaN without a change of it
-  double slope_per_K = 0.0;  ///< regression on the ambient temperature
+  double range_per_K_sigma = 0.0;
+  /// Regression on the ambient temperature, the noise of its readings taken off; NaN where they are little else.
+  double slope_per_K = 0.0;
   double slope_sigma = 0.0;
 };
 struct EtveResult {
   double duration_s = 0.0;
-  double window_s = 0.0;  ///< in which levels were read
-  double temperature_range_K = 0.0;
+  double window_s = 0.0;             ///< in which levels were read
+  double temperature_range_K = 0.0;  ///< of levels, as that of a component
+  double temperature_range_sigma_K = 0.0;
   std::vector<EtveComponent> components;
   std::string note;
 };
@@ -61,9 +64,11 @@ struct SpindleComponent {
   double change_sigma = 0.0;      ///< of `at_end`
   double range = 0.0;             ///< over the running period
   double range_sigma = 0.0;
+  double first_hour_range = 0.0;  ///< over its first 60 min; NaN if the run was shorter
+  double first_hour_range_sigma = 0.0;
   double time_to_fraction_s =
       0.0;  ///< first time from which the change stays beyond `fraction` of its end value; NaN if it ends below 3 sigma
-  double after_cooling = 0.0;  ///< change left at the end of the record
+  double after_cooling = 0.0;  ///< change left at the end of the record; NaN where it ends with the run
   double after_cooling_sigma = 0.0;
 };
 struct SpindleResult {

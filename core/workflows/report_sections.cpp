@@ -331,56 +331,50 @@ void addThermalModel(Report& document, const StoredResults& stored) {
                      "In the test range the model is no better than a plain one: do not use it for compensation.");
 }
 
-void addIso230(Report& document, const Campaign& campaign,
-               const std::function<Iso230Request(const TimeSeries&)>& asked) {
-  if (!campaign.log || !hasOutputSignals(*campaign.log)) return;
-  Iso230Result result;
-  try {
-    TimeSeries series = readTimeSeries(campaign.path("log.csv"));
-    leaveOutCompensated(series);  // as the window shows the test
-    Iso230Request request;
-    if (asked) {
-      request = asked(series);
-    } else {
-      request.test = standardTestIn(series);
-    }
-    if (request.test.empty()) return;
-    result = evaluateIso230Test(series, request);
-  } catch (const InputError&) {
-    return;  // the log holds none of the tests
-  }
+void addStandardTest(Report& document, const nlohmann::json& test, const Drawing& diagram,
+                     const StoredResults& stored) {
+  const nlohmann::json components = test.value("components", nlohmann::json::array());
+  if (components.empty()) return;
+  const bool spindle = textOf(test, "test") == "spindle";
+  document.section(spindle ? "ISO 230-3: thermal distortion caused by the rotating spindle"
+                           : "ISO 230-3: environmental temperature variation error");
+  addOutdated(document, stored, "iso-230-3");
   std::vector<ReportRow> rows;
-  if (result.spindle) {
-    for (const SpindleComponent& c : result.spindle->components) {
-      rows.push_back({signalTitle(c.name).name, withUncertainty(c.first_hour, c.first_hour_sigma, c.unit),
-                      withUncertainty(c.at_end, c.change_sigma, c.unit),
-                      withUncertainty(c.range, c.range_sigma, c.unit),
-                      numberText(c.time_to_fraction_s / 60.0, "min", 0)});
+  for (const nlohmann::json& c : components) {
+    const std::string name = signalTitle(textOf(c, "name")).name;
+    const std::string unit = textOf(c, "unit");
+    const auto known = [&](const char* value, const char* sigma, const std::string& in) {
+      return std::isfinite(numberOf(c, value)) ? withUncertainty(numberOf(c, value), numberOf(c, sigma), in)
+                                               : std::string("not determined");
+    };
+    if (spindle) {
+      rows.push_back({name, known("first_hour", "first_hour_standard_uncertainty", unit),
+                      known("first_hour_range", "first_hour_range_standard_uncertainty", unit),
+                      known("at_end", "standard_uncertainty", unit), known("range", "range_standard_uncertainty", unit),
+                      numberText(numberOf(c, "time_to_fraction_s") / 60.0, "min", 0)});
+    } else {
+      rows.push_back({name, known("range", "range_standard_uncertainty", unit),
+                      known("range_per_K", "range_per_K_standard_uncertainty", unit + "/K"),
+                      known("slope_per_K", "slope_standard_uncertainty", unit + "/K")});
     }
-    if (rows.empty()) return;
-    document.section("ISO 230-3: thermal distortion caused by the rotating spindle");
+  }
+  if (spindle) {
     document.paragraph(fmt::format("The spindle ran from {:.2f} h to {:.2f} h; changes are relative to its start.",
-                                   result.spindle->start_s / seconds_per_hour,
-                                   result.spindle->stop_s / seconds_per_hour));
-    document.table({"Component", "After 60 min", "At the end", "Range",
-                    fmt::format("{:.0f} % of the end after", 100.0 * result.spindle->fraction)},
+                                   numberOf(test, "start_s") / seconds_per_hour,
+                                   numberOf(test, "stop_s") / seconds_per_hour));
+    document.table({"Component", "After 60 min", "Range in 60 min", "At the end", "Range",
+                    fmt::format("{:.0f} % of the end after", 100.0 * numberOf(test, "fraction"))},
                    rows, "Parameters of the rotating spindle test");
-  } else if (result.etve) {
-    for (const EtveComponent& c : result.etve->components) {
-      rows.push_back({signalTitle(c.name).name, withUncertainty(c.range, c.range_sigma, c.unit),
-                      numberText(c.range_per_K, c.unit + "/K", 2),
-                      std::isfinite(c.slope_per_K) ? withUncertainty(c.slope_per_K, c.slope_sigma, c.unit + "/K")
-                                                   : std::string("not determined")});
-    }
-    if (rows.empty()) return;
-    document.section("ISO 230-3: environmental temperature variation error");
+  } else {
     document.paragraph(fmt::format("Over {:.1f} h, ambient temperature range {:.2f} K.",
-                                   result.etve->duration_s / seconds_per_hour, result.etve->temperature_range_K));
+                                   numberOf(test, "duration_s") / seconds_per_hour,
+                                   numberOf(test, "temperature_range_K")));
     document.table({"Component", "Range", "Range per K", "Slope on the ambient temperature"}, rows,
                    "Parameters of the ETVE test");
   }
-  document.figure(*result.diagram, "Readings of the test over time");
-  for (const std::string& note : result.notes) document.paragraph(note);
+  document.figure(diagram, "Readings of the test over time");
+  for (const nlohmann::json& note : test.value("notes", nlohmann::json::array()))
+    document.paragraph(note.get<std::string>());
 }
 
 /// What remains where nothing was fitted: "2.10 µm (before 24.30 µm), at F6, held out".

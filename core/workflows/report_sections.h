@@ -28,6 +28,7 @@ struct StoredResults {
   nlohmann::json repeatability;   ///< {"passed","reason"}
   nlohmann::json fit;             ///< of touches (cyclesJson) or scans: told in place of the one under usual options
   nlohmann::json thermal;         ///< IdentifyResult::json
+  nlohmann::json standard_test;   ///< StandardTest::json
   nlohmann::json compensation;    ///< CompensationPlan::json
   /// CompensateResult::json: the control's compensator run over the log.
   nlohmann::json log_compensation;
@@ -55,11 +56,8 @@ void addInstrumentState(Report& document, const StoredResults& stored, bool has_
 /// The model over time: inputs, quality in free run, time constants. Nothing without a model.
 void addThermalModel(Report& document, const StoredResults& stored);
 
-/// The test of ISO 230-3 that the log is a record of: rotating spindle if it runs once and long enough, environmental
-/// variation if nothing moves; on the displacements of the log. Nothing for a mixed programme.
-/// `asked`: the test as it was chosen; none, or one without a test: the one that the log is a record of.
-void addIso230(Report& document, const Campaign& campaign,
-               const std::function<Iso230Request(const TimeSeries&)>& asked);
+/// A test of ISO 230-3 (StandardTest::json) and its readings over time. Nothing where there are no parameters.
+void addStandardTest(Report& document, const nlohmann::json& test, const Drawing& diagram, const StoredResults& stored);
 
 /// What a control would be commanded, and what is expected to remain.
 void addCompensation(Report& document, const StoredResults& stored);

@@ -15,9 +15,11 @@
 #include "core/reporting/report_wording.h"
 #include "core/session/fingerprint.h"
 #include "core/session/session.h"
+#include "core/workflows/campaign_series.h"
 #include "core/workflows/compensated_data.h"
 #include "core/workflows/discrepancy_story.h"
 #include "core/workflows/fit_campaign.h"
+#include "core/workflows/log_campaign.h"
 #include "core/workflows/simulation_story.h"
 
 namespace spindrift {
@@ -117,6 +119,25 @@ void addHeadlines(CampaignReportInput& input, const StoredResults& stored) {
     add("Compensation verified", "verify", stored.verification.value("reason", ""));
 }
 
+/// As it is stored; else as it was chosen; else the one that the displacements of the log are a record of. Nothing of a
+/// mixed programme.
+void tellStandardTest(Report& document, const Campaign& campaign, const ObservationSet& observations,
+                      const ReportOptions& options, JobContext& job) {
+  if (!campaign.log || (!options.iso230 && !hasOutputSignals(*campaign.log))) return;
+  try {
+    const TimeSeries series = campaignSeries(campaign, observations.rows.empty() ? nullptr : &observations, job).series;
+    Iso230Request request;
+    if (options.iso230) request = options.iso230(series);
+    if (request.test.empty()) request.test = standardTestIn(series);
+    if (request.test.empty()) return;
+    const nlohmann::json test = options.stored.standard_test.is_object() ? options.stored.standard_test
+                                                                         : evaluateIso230Test(series, request).json();
+    addStandardTest(document, test, diagramOfIso230Test(series, request), options.stored);
+  } catch (const InputError&) {
+    return;  // the log holds none of the tests
+  }
+}
+
 }  // namespace
 
 bool canReport(const Campaign& campaign, bool has_observations) {
@@ -185,11 +206,12 @@ Report reportOfCampaign(const Campaign& campaign, const ReportOptions& options, 
            if (!stored.simulation.is_null()) addOutdated(document, stored, "simulation");
          }});
   }
-  input.conclusions = {[&](Report& document) { addThermalModel(document, stored); },
-                       [&](Report& document) { addIso230(document, campaign, options.iso230); },
-                       [&](Report& document) { addCompensation(document, stored); },
-                       [&](Report& document) { addLogCompensation(document, stored); },
-                       [&](Report& document) { addVerification(document, stored); }};
+  input.conclusions = {
+      [&](Report& document) { addThermalModel(document, stored); },
+      [&](Report& document) { tellStandardTest(document, campaign, input.observations, options, job); },
+      [&](Report& document) { addCompensation(document, stored); },
+      [&](Report& document) { addLogCompensation(document, stored); },
+      [&](Report& document) { addVerification(document, stored); }};
   job.report(1.0, "writing the report");
   return campaignReport(input);
 }

@@ -28,7 +28,7 @@ struct ReportOptions {
   DiscrepancyOptions search;                    ///< of that search: effects put in or left out by the user
   NineParameterOptions fit;                     ///< of the model of each state; its state is set
   /// The test of ISO 230-3 as it was chosen for the series of the log; none: the one that the log is a record of.
-  std::function<Iso230Request(const TimeSeries&)> iso230;
+  AskedTest iso230;
   std::string operator_name;
   std::vector<std::pair<std::string, std::string>> exclusions;
   std::vector<std::string> notes;

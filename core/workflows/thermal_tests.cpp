@@ -166,19 +166,21 @@ std::string standardTestIn(const TimeSeries& series) {
   return moves ? std::string() : std::string("etve");
 }
 
-Iso230Result evaluateIso230Test(const TimeSeries& whole, const Iso230Request& request) {
-  const TimeSeries series = request.range ? seriesWithin(whole, *request.range) : whole;
-  Iso230Result result;
-  result.test = request.test;
-  result.notes = series.notes;
+namespace {
+
+std::vector<ComponentSeries> componentsOf(const TimeSeries& series, const Iso230Request& request) {
   std::vector<ComponentSeries> components;
-  std::vector<PlotSeries> curves;
   for (const Signal& s : series.signals) {
     if (!request.columns.empty() || s.kind != SignalKind::Displacement) continue;
     components.push_back({s.name, unitOfSignal(s.name), s.values, 0.0});
   }
   for (const std::string& name : request.columns)
     components.push_back({name, unitOfSignal(name), series.at(name).values, 0.0});
+  return components;
+}
+
+Drawing diagramOf(const TimeSeries& series, const std::vector<ComponentSeries>& components, const std::string& test) {
+  std::vector<PlotSeries> curves;
   for (const ComponentSeries& c : components) {
     PlotSeries curve{c.name, series.time_s, c.values, {}, SeriesStyle::Line};
     // What is measured along an axis has its colour; tilts follow the palette.
@@ -188,6 +190,24 @@ Iso230Result evaluateIso230Test(const TimeSeries& whole, const Iso230Request& re
     if (axis != std::string::npos) curve.dress(axisLook(static_cast<int>(axis)));
     curves.push_back(std::move(curve));
   }
+  return drawCurves(test == "etve" ? "Environmental temperature variation error (ETVE), µm or µrad"
+                                   : "Thermal distortion caused by the rotating spindle, µm or µrad",
+                    curves);
+}
+
+}  // namespace
+
+Drawing diagramOfIso230Test(const TimeSeries& whole, const Iso230Request& request) {
+  const TimeSeries series = request.range ? seriesWithin(whole, *request.range) : whole;
+  return diagramOf(series, componentsOf(series, request), request.test);
+}
+
+Iso230Result evaluateIso230Test(const TimeSeries& whole, const Iso230Request& request) {
+  const TimeSeries series = request.range ? seriesWithin(whole, *request.range) : whole;
+  Iso230Result result;
+  result.test = request.test;
+  result.notes = series.notes;
+  const std::vector<ComponentSeries> components = componentsOf(series, request);
   if (request.test == "etve") {
     const std::vector<std::string> at_rest = requireMachineAtRest(series);
     result.notes.insert(result.notes.end(), at_rest.begin(), at_rest.end());
@@ -206,15 +226,35 @@ Iso230Result evaluateIso230Test(const TimeSeries& whole, const Iso230Request& re
                      ambient.empty() ? std::span<const double>{} : std::span<const double>(series.at(ambient).values),
                      request.window_s);
     if (!result.etve->note.empty()) result.notes.push_back(result.etve->note);
-    result.diagram = drawCurves("Environmental temperature variation error (ETVE), µm or µrad", curves);
   } else {
     const Signal* speed = speedOf(series, request.speed);
     const std::vector<double> rpm = bridged(series.time_s, speed->values, true);
     if (std::string note = requireOneSpeedStep(series, speed->name, rpm); !note.empty()) result.notes.push_back(note);
     result.spindle = evaluateRotatingSpindle(series.time_s, rpm, components, request.fraction, request.window_s);
-    result.diagram = drawCurves("Thermal distortion caused by the rotating spindle, µm or µrad", curves);
   }
+  result.diagram = diagramOf(series, components, request.test);
   return result;
+}
+
+StandardTest standardTestOf(const TimeSeries& series, const AskedTest& asked) {
+  StandardTest out;
+  try {
+    if (series.time_s.size() < 2) throw InputError("the log has a single row.");
+    Iso230Request request = asked(series);
+    if (request.test.empty()) request.test = "etve";
+    out.result.test = request.test;
+    out.result = evaluateIso230Test(series, request);
+  } catch (const InputError& e) {
+    out.why_not = e.what();
+  }
+  return out;
+}
+
+nlohmann::json StandardTest::json() const {
+  nlohmann::json out = result.json();
+  out["status"] = toString(why_not.empty() ? FitStatus::Converged : FitStatus::Degenerate);
+  out["message"] = why_not;
+  return out;
 }
 
 nlohmann::json Iso230Result::json() const {
@@ -223,12 +263,14 @@ nlohmann::json Iso230Result::json() const {
     out["duration_s"] = etve->duration_s;
     out["window_s"] = etve->window_s;
     out["temperature_range_K"] = etve->temperature_range_K;
+    out["temperature_range_standard_uncertainty_K"] = etve->temperature_range_sigma_K;
     for (const EtveComponent& c : etve->components) {
       out["components"].push_back({{"name", c.name},
                                    {"unit", c.unit},
                                    {"range", c.range},
                                    {"range_standard_uncertainty", c.range_sigma},
                                    {"range_per_K", jsonNumber(c.range_per_K)},
+                                   {"range_per_K_standard_uncertainty", jsonNumber(c.range_per_K_sigma)},
                                    {"slope_per_K", jsonNumber(c.slope_per_K)},
                                    {"slope_standard_uncertainty", jsonNumber(c.slope_sigma)}});
     }
@@ -247,6 +289,8 @@ nlohmann::json Iso230Result::json() const {
                                    {"standard_uncertainty", c.change_sigma},
                                    {"range", c.range},
                                    {"range_standard_uncertainty", c.range_sigma},
+                                   {"first_hour_range", jsonNumber(c.first_hour_range)},
+                                   {"first_hour_range_standard_uncertainty", jsonNumber(c.first_hour_range_sigma)},
                                    {"time_to_fraction_s", jsonNumber(c.time_to_fraction_s)},
                                    {"after_cooling", jsonNumber(c.after_cooling)},
                                    {"after_cooling_standard_uncertainty", jsonNumber(c.after_cooling_sigma)}});
@@ -281,8 +325,10 @@ std::string Iso230Result::summary() const {
     for (const EtveComponent& c : etve->components) {
       text +=
           fmt::format("  {}: range {}, per K {}, slope {}\n", c.name, withUncertainty(c.range, c.range_sigma, c.unit),
-                      std::isfinite(c.range_per_K) ? fmt::format("{:.3g}", printed(c.range_per_K)) : "not determined",
-                      withUncertainty(c.slope_per_K, c.slope_sigma, c.unit + "/K"));
+                      std::isfinite(c.range_per_K) ? withUncertainty(c.range_per_K, c.range_per_K_sigma, c.unit + "/K")
+                                                   : "not determined",
+                      std::isfinite(c.slope_per_K) ? withUncertainty(c.slope_per_K, c.slope_sigma, c.unit + "/K")
+                                                   : "not determined");
     }
   }
   if (spindle) {

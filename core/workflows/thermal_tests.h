@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -46,5 +47,19 @@ struct Iso230Result {
 [[nodiscard]] Iso230Result evaluateIso230Test(const Iso230Request& request, const JobContext& job);
 /// "etve" and "spindle" on a series in memory.
 [[nodiscard]] Iso230Result evaluateIso230Test(const TimeSeries& series, const Iso230Request& request);
+/// The readings of such a test over time, h; of its part of the series.
+[[nodiscard]] Drawing diagramOfIso230Test(const TimeSeries& series, const Iso230Request& request);
+
+/// The test of a campaign, as a session stores it and window and report tell it.
+struct StandardTest {
+  Iso230Result result;
+  std::string why_not;  ///< why the series is no record of this test; empty: it is one
+
+  /// Iso230Result::json, with status ("converged", or "degenerate" without parameters) and message.
+  [[nodiscard]] nlohmann::json json() const;
+};
+/// What is asked of a series: asked without a test it is that of the environment, which says what speaks against it.
+using AskedTest = std::function<Iso230Request(const TimeSeries&)>;
+[[nodiscard]] StandardTest standardTestOf(const TimeSeries& series, const AskedTest& asked);
 
 }  // namespace spindrift

@@ -171,6 +171,64 @@ TEST(Iso2303, RotatingSpindleByHand) {
   // 1 - exp(-t/3600) = 0.9 * 0.98168 -> t = 7749 s, first reading at or after: 7800 s.
   EXPECT_DOUBLE_EQ(r.components[0].time_to_fraction_s, 7800.0);
   EXPECT_NEAR(r.components[0].after_cooling, 19.6337 * std::exp(-2.5), 1e-3);
+  EXPECT_NEAR(r.components[0].first_hour_range, r.components[0].first_hour, 0.1) << "it only grows";
+}
+
+TEST(Iso2303, AfterTheStopNothingIsStatedOfARecordThatEndsWithIt) {
+  std::vector<double> time;
+  std::vector<double> speed;
+  ComponentSeries ez{"EZ", "um", {}, 0.05};
+  for (int k = 0; k <= 200; ++k) {
+    time.push_back(60.0 * k);
+    speed.push_back(k >= 10 ? 3000.0 : 0.0);
+    // Grows, and after half an hour shrinks again below where it was: the change of an hour is not its range.
+    ez.values.push_back(k < 10 ? 0.0 : k < 40 ? 0.4 * (k - 10) : 12.0 - 0.3 * std::min(k - 40, 40));
+  }
+  const SpindleComponent c = evaluateRotatingSpindle(time, speed, {ez}, 0.9).components[0];
+  EXPECT_TRUE(std::isnan(c.after_cooling));
+  EXPECT_TRUE(std::isnan(c.after_cooling_sigma));
+  EXPECT_NEAR(c.first_hour, 3.0, 0.1);
+  EXPECT_NEAR(c.first_hour_range, 12.0, 0.3);
+  EXPECT_GT(c.first_hour_range_sigma, 0.0);
+}
+
+// A thermometer of 0.1 K in a room that changes by 1 K: neither its range nor its squares are those of the room.
+TEST(Iso2303, NoiseOfTheThermometerChangesNothingPerKelvin) {
+  constexpr int records = 30;
+  double per_K = 0.0;
+  double slope = 0.0;
+  double squares = 0.0;
+  for (int seed = 1; seed <= records; ++seed) {
+    Random random(static_cast<std::uint64_t>(seed));
+    std::vector<double> time;
+    std::vector<double> ambient;
+    ComponentSeries z{"Z_um", "um", {}, 0.0};
+    for (int k = 0; k < 960; ++k) {
+      time.push_back(30.0 * k);
+      const double room = 0.5 * std::sin(k / 153.0);
+      ambient.push_back(20.0 + room + random.normal(0.0, 0.1));
+      z.values.push_back(5.0 * room + random.normal(0.0, 0.05));
+    }
+    const EtveComponent c = evaluateEtve(time, {z}, ambient).components[0];
+    per_K += c.range_per_K / records;
+    slope += c.slope_per_K / records;
+    squares += std::pow((c.range_per_K - 5.0) / c.range_per_K_sigma, 2) / records;
+  }
+  // The range of levels keeps a third of the noise of a reading (3.1 um/K with all of it).
+  EXPECT_NEAR(per_K, 5.0, 0.2);
+  EXPECT_NEAR(slope, 5.0, 0.05);
+  EXPECT_LT(std::sqrt(squares), 2.0);
+  // Nothing but noise: nothing is said per kelvin.
+  Random random(3);
+  std::vector<double> time;
+  std::vector<double> ambient;
+  ComponentSeries z{"Z_um", "um", {}, 0.0};
+  for (int k = 0; k < 960; ++k) {
+    time.push_back(30.0 * k);
+    ambient.push_back(20.0 + random.normal(0.0, 0.1));
+    z.values.push_back(random.normal(0.0, 0.05));
+  }
+  EXPECT_TRUE(std::isnan(evaluateEtve(time, {z}, ambient).components[0].slope_per_K));
 }
 
 // A reading every second with noise of 0.5 um: what is reported must not be that of single readings.
@@ -223,6 +281,13 @@ TEST(Iso2303, MovingAxisByHand) {
   EXPECT_NEAR(r.high.range_um, 9.4, 1e-9);
   EXPECT_LT(r.high.repeatability_um, 0.05);
   EXPECT_NEAR(r.expansion_over_time_um.back(), 8.0, 0.05);
+  // Positions as a probe finds them are never twice the same.
+  Random random(4);
+  for (AxisReading& reading : readings) reading.position_mm += random.uniform(-0.01, 0.01);
+  const AxisResult found = evaluateMovingAxis(readings);
+  EXPECT_NEAR(found.expansion_um, 8.0, 1e-9);
+  EXPECT_EQ(found.low.readings, 18U);
+  EXPECT_NEAR(found.low.position_mm, 50.0, 0.01);
 }
 
 // ISO 230-2 asks for repeatability and reversal, ISO/TR 230-9 for their uncertainty: over many tests the scatter of

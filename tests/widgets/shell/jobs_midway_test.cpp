@@ -453,14 +453,16 @@ INSTANTIATE_TEST_SUITE_P(Jobs, JobsMidway, ::testing::ValuesIn(cases()), [](cons
 
 TEST(JobsMidwayCases, EveryJobOfAPageIsAmongThem) {
   // What belongs to no campaign (plant, exercises), one picture or cloud that was picked, and what has tests of its own
-  // (scanning_pages_test, simulation_panel_test, compensate_page_test, nine_parameter_page_test, review_page_test,
-  // campaigns_test).
+  // (scanning_pages_test, simulation_panel_test, verify_page_test, compensate_page_test, nine_parameter_page_test,
+  // review_page_test, campaigns_test).
   const std::set<QString> elsewhere{QStringLiteral("Decoding %1"),
                                     QStringLiteral("Reading %1"),
                                     QStringLiteral("Comparing scans"),
                                     QStringLiteral("Drawing before and after"),
                                     QStringLiteral("Running the compensator"),
                                     QStringLiteral("Putting it into the simulation"),
+                                    QStringLiteral("Evaluating the test of ISO 230-3"),
+                                    QStringLiteral("Reading the test of ISO 230-3"),
                                     QStringLiteral("Reading the model"),
                                     QStringLiteral("Reading the six errors"),
                                     QStringLiteral("Reading the fit"),

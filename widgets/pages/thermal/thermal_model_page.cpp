@@ -169,6 +169,10 @@ QWidget* ThermalModelPage::makeDetails() {
     iso_options_.change(tr("choose the test of ISO 230-3"), [&](Iso230Choice& o) { o = choice; });
   });
   tabs_->addTab(iso_, QStringLiteral("ISO 230-3"));
+  connect(tabs_, &QTabWidget::currentChanged, this, [this](int) {
+    tested_.clear();
+    showStandardTest();
+  });
   card->body()->addWidget(tabs_, 1);
   connect(step_input_, &QComboBox::activated, this, &ThermalModelPage::showStep);
   connect(inputs_, &RowsModel::checkedChanged, this, [this](const QString&, int, bool) {
@@ -257,7 +261,7 @@ void ThermalModelPage::refresh() {
     return;
   }
   options_.fill([this] { fillChoices(); });
-  iso_->set(series_, iso_options_.now());
+  showStandardTest();
   const auto sigma = sigma_.find(request().output);
   const ShownTask stored = shown("thermal", tr("Reading the model"));
   if (!stored.reading) result_ = stored.as<IdentifyResult>();
@@ -284,6 +288,18 @@ void ThermalModelPage::refresh() {
   fillInputs();
   showSeries();
   showResult();
+}
+
+void ThermalModelPage::showStandardTest() {
+  if (series_ == nullptr) return;
+  iso_->set(series_, iso_options_.now());
+  if (tabs_->currentWidget() != iso_) return;
+  const ShownTask test = shown("iso-230-3", tr("Reading the test of ISO 230-3"));
+  iso_->show(test.as<StandardTest>());
+  if (test.reading || test.state.current) return;
+  // Once for what is chosen: a test that was cancelled is not begun again by what shows it.
+  std::string asked = inputsKey() + "|" + optionsJson(iso_options_.now()).dump();
+  if (std::exchange(tested_, asked) != asked) runAlone("iso-230-3");
 }
 
 QString ThermalModelPage::outputUnit() const {

@@ -52,6 +52,8 @@ class ThermalModelPage : public Page {
   /// Names what the series is made of: it is read again when this changes.
   [[nodiscard]] std::string inputsKey();
   [[nodiscard]] TaskInputs taskInputs() override;
+  /// While it is looked at, and evaluated where it was not yet.
+  void showStandardTest();
   void clear();
   void fillChoices();
   void fillInputs();
@@ -67,6 +69,7 @@ class ThermalModelPage : public Page {
   std::string loaded_;                   ///< folder of the campaign whose log is in series_
   std::map<std::string, double> sigma_;  ///< of one value of a sparse output
   QString failure_;
+  std::string tested_;  ///< what the test of ISO 230-3 was last asked for
 
   QPushButton* identify_;
   QComboBox* output_;

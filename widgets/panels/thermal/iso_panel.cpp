@@ -11,7 +11,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/base/error.h"
 #include "core/machine/sensor_role.h"
 #include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
@@ -93,7 +92,7 @@ void IsoPanel::set(std::shared_ptr<const TimeSeries> series, const Iso230Choice&
   choice_ = choice;
   if (another) fillColumns();
   fillChoice();
-  evaluate();
+  show(nullptr);
 }
 
 void IsoPanel::fillColumns() {
@@ -134,28 +133,25 @@ Iso230Choice IsoPanel::controls() const {
 void IsoPanel::choose() {
   if (controls() == shown_) return;
   choice_ = shown_ = controls();
-  evaluate();
+  show(nullptr);
   Q_EMIT chosen(choice_);
 }
 
-void IsoPanel::evaluate() {
+void IsoPanel::show(std::shared_ptr<const StandardTest> test) {
+  if (test != nullptr && test == told_) return;
+  told_ = std::move(test);
   note_->set(Tone::Neutral, {});
   rows_->setRows({});
   showCurves(false);
   ambient_->setEnabled(test_->current() == 0);
   speed_->setEnabled(test_->current() == 1 && speed_->count() > 1);
-  if (series_ == nullptr) return;
-  try {
-    Iso230Request request = choice_.request(*series_);
-    if (request.test.empty()) request.test = "etve";  // it says what speaks against it
-    if (request.speed.empty()) request.speed = speed_->currentData().toString().toStdString();
-    const Iso230Result result = evaluateIso230Test(*series_, request);
-    if (result.etve) showEtve(*result.etve);
-    if (result.spindle) showSpindle(*result.spindle);
-  } catch (const InputError& e) {
-    note_->show(Tone::Attention, coreSentence(e.what()));
+  if (series_ == nullptr || told_ == nullptr) return;
+  if (!told_->why_not.empty()) {
+    note_->show(Tone::Attention, coreSentence(told_->why_not));
     return;
   }
+  if (told_->result.etve) showEtve(*told_->result.etve);
+  if (told_->result.spindle) showSpindle(*told_->result.spindle);
   showCurves(true);
 }
 
@@ -190,8 +186,9 @@ void IsoPanel::showEtve(const EtveResult& result) {
     row.id = fromCore(c.name);
     const QString unit = unitText(c.unit);
     row.cells = {nameCell(row.id), Cell{tr("range %1").arg(quantityText(c.range, c.range_sigma, unit))},
-                 Cell{std::isfinite(c.range_per_K) ? tr("%1 %2/K").arg(decimalText(c.range_per_K, 'g', 3)).arg(unit)
-                                                   : QStringLiteral("–")},
+                 Cell{std::isfinite(c.range_per_K)
+                          ? quantityText(c.range_per_K, c.range_per_K_sigma, unit + QStringLiteral("/K"))
+                          : QStringLiteral("–")},
                  Cell{std::isfinite(c.slope_per_K)
                           ? tr("slope %1").arg(quantityText(c.slope_per_K, c.slope_sigma, unit + QStringLiteral("/K")))
                           : QStringLiteral("–")}};

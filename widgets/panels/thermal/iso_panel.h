@@ -24,8 +24,10 @@ class IsoPanel : public QWidget {
   Q_OBJECT
  public:
   explicit IsoPanel(QWidget* parent = nullptr);
-  /// Shows the test that is chosen of a series; another one of either is told by `chosen`.
+  /// What there is to choose of a series, and what is chosen; another choice is told by `chosen`.
   void set(std::shared_ptr<const TimeSeries> series, const Iso230Choice& choice = {});
+  /// Its parameters, or why there are none; null: not known yet.
+  void show(std::shared_ptr<const StandardTest> test);
   [[nodiscard]] Segments* test() const { return test_; }
   [[nodiscard]] QComboBox* speed() const { return speed_; }
   [[nodiscard]] QLineEdit* range() const { return range_; }
@@ -42,13 +44,13 @@ class IsoPanel : public QWidget {
   void fillChoice();
   [[nodiscard]] Iso230Choice controls() const;
   void choose();
-  void evaluate();
   /// Draws what the log holds, or nothing.
   void showCurves(bool any);
   void showEtve(const EtveResult& result);
   void showSpindle(const SpindleResult& result);
 
   std::shared_ptr<const TimeSeries> series_;
+  std::shared_ptr<const StandardTest> told_;
   Iso230Choice choice_;
   Iso230Choice shown_;  ///< the same as the controls say it, with what was not chosen
   Segments* test_;

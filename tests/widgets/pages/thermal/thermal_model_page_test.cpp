@@ -138,6 +138,13 @@ TEST_F(ThermalPages, InputsAndMethodAreChosen) {
   EXPECT_GT(page->lags()->rowCount(), 0);
 }
 
+/// As the page does: what is chosen is evaluated, and shown.
+void showTest(IsoPanel& panel, const TimeSeries& series, const Iso230Choice& choice = {}) {
+  panel.set(std::make_shared<TimeSeries>(series), choice);
+  panel.show(std::make_shared<const StandardTest>(
+      standardTestOf(series, [&](const TimeSeries& of) { return choice.request(of); })));
+}
+
 TEST(IsoPanelTest, DisplacementsAndRotationsHaveAnAxisEach) {
   std::string text = "time_s,T_room_degC,ez_um,ex_nm,eb_urad\n";
   for (int i = 0; i <= 240; ++i) {
@@ -147,7 +154,7 @@ TEST(IsoPanelTest, DisplacementsAndRotationsHaveAnAxisEach) {
             "," + exactNumber(-4.0 * room) + "\n";
   }
   IsoPanel panel;
-  panel.set(std::make_shared<TimeSeries>(parseTimeSeries(text, "log.csv")));
+  showTest(panel, parseTimeSeries(text, "log.csv"));
   setShownUnits({true, true, true});
   ASSERT_EQ(panel.plot()->series().size(), 2U);
   ASSERT_EQ(panel.plot(true)->series().size(), 1U);
@@ -159,7 +166,7 @@ TEST(IsoPanelTest, DisplacementsAndRotationsHaveAnAxisEach) {
   EXPECT_NEAR(panel.plot(true)->series()[0].y.back(), -4.0 * last, 1e-6);
   setShownUnits({});
   // Where nothing turns there is one picture.
-  panel.set(std::make_shared<TimeSeries>(parseTimeSeries("time_s,ez_um\n0,1\n60,2\n", "log.csv")));
+  showTest(panel, parseTimeSeries("time_s,ez_um\n0,1\n60,2\n", "log.csv"));
   EXPECT_TRUE(panel.plot(true)->isHidden());
   EXPECT_FALSE(panel.plot()->isHidden());
 }
@@ -172,7 +179,9 @@ TEST(IsoPanelTest, TheColumnOfTheSpeedIsChosen) {
     text += exactNumber(60.0 * i) + (i >= 30 && i < 90 ? ",6000" : ",0") + (i >= 60 && i < 120 ? ",2000," : ",0,") +
             exactNumber(0.1 * i) + "\n";
   IsoPanel panel;
-  panel.set(std::make_shared<TimeSeries>(parseTimeSeries(text, "log.csv")));
+  const TimeSeries series = parseTimeSeries(text, "log.csv");
+  showTest(panel, series);
+  QObject::connect(&panel, &IsoPanel::chosen, [&](const Iso230Choice& choice) { showTest(panel, series, choice); });
   EXPECT_EQ(panel.test()->current(), 1) << "the spindle runs once";
   panel.test()->button(0)->click();
   EXPECT_FALSE(panel.speed()->isEnabled()) << "of a machine at rest";

@@ -252,11 +252,14 @@ TEST_F(VerifyPages, ACampaignWithObservationsHasAModelOverTime) {
   page->updates()->what()->button(1)->click();
   EXPECT_EQ(page->updates()->plot()->series().size(), 2U);
   // ISO 230-3 of the same series.
+  page->findChild<QTabWidget*>()->setCurrentWidget(page->iso());
+  ASSERT_TRUE(waitForJobs(*window_, 60));
   // The spindle ran: that is no test of environmental variation, and the panel says why.
   EXPECT_EQ(page->iso()->rows()->rowCount(), 0);
   EXPECT_TRUE(page->iso()->note()->sentence().contains(QLatin1String("spindle turns")))
       << page->iso()->note()->sentence().toStdString();
   page->iso()->test()->button(1)->click();
+  ASSERT_TRUE(waitForJobs(*window_, 60));
   // Several speeds, two hours each, are no test of the rotating spindle; one of them is.
   EXPECT_EQ(page->iso()->rows()->rowCount(), 0);
   EXPECT_TRUE(page->iso()->note()->sentence().contains(QLatin1String("several steps of speed")))
@@ -264,6 +267,7 @@ TEST_F(VerifyPages, ACampaignWithObservationsHasAModelOverTime) {
   for (int from_s = 0; from_s < 12 * 7200 && page->iso()->rows()->rowCount() == 0; from_s += 7200) {
     page->iso()->range()->setText(QStringLiteral("%1:%2").arg(from_s).arg(from_s + 7140));
     Q_EMIT page->iso()->range()->editingFinished();
+    ASSERT_TRUE(waitForJobs(*window_, 60));
   }
   EXPECT_EQ(page->iso()->rows()->rowCount(), 2);
   EXPECT_FALSE(page->iso()->plot()->empty());
@@ -275,10 +279,19 @@ TEST_F(VerifyPages, ACampaignWithObservationsHasAModelOverTime) {
     return QString::fromStdString(options.iso230.range);
   };
   EXPECT_EQ(told(), range);
+  // It is stored, and the report tells what is stored.
+  const auto storedRange = [&] {
+    const StoredResult* stored = window_->session().latest("iso-230-3");
+    return stored == nullptr ? QString() : QString::fromStdString(stored->provenance.options.value("range", ""));
+  };
+  EXPECT_EQ(storedRange(), range);
+  EXPECT_TRUE(window_->session().state("iso-230-3").current);
   window_->undoStack().undo();
+  ASSERT_TRUE(waitForJobs(*window_, 60));
   EXPECT_NE(page->iso()->range()->text(), range);
   EXPECT_EQ(told(), page->iso()->range()->text());
   window_->undoStack().redo();
+  ASSERT_TRUE(waitForJobs(*window_, 60));
   EXPECT_EQ(page->iso()->range()->text(), range);
   EXPECT_EQ(page->iso()->rows()->rowCount(), 2);
   if (qEnvironmentVariableIsSet("SPINDRIFT_PICTURES")) {
