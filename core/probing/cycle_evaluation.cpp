@@ -62,6 +62,7 @@ class Assembler {
 
   void run() {
     group();
+    guessRadii();
     rejectMisplaced();
     if (assembly_.kind == FeatureKind::Hole) {
       for (RejectedTouch& r :
@@ -74,15 +75,18 @@ class Assembler {
     for (const RejectedTouch& r : result_.rejected) excluded[r.touch] = true;
     requireTouches(excluded);
     leaveOutMovedCycles(excluded);
-    for (int pass = 0; pass < 2; ++pass) {
+    constexpr int most_passes = 4;
+    for (int pass = 0; pass < most_passes; ++pass) {
       centre(excluded);
       build(excluded);
       result_.fit = fitDriftingCycles(result_.problem, rowTimes(), assembly_.fit);
       bool changed = false;
-      // A bad touch spoils the centre about which the others of its feature were linearised: once more without it.
+      // A bad touch spoils the centre about which the others of its feature were linearised, and these look bad as
+      // well: the worst of each leaves, and the others are judged once more without it.
+      const std::vector<bool> worst = worstOfGroups();
       std::vector<bool> next = excluded;
       for (std::size_t r = 0; r < result_.row_touch.size(); ++r) {
-        if (result_.fit.used[r]) continue;
+        if (result_.fit.used[r] || (pass + 1 < most_passes && !worst[r])) continue;
         const double error_um = result_.fit.residual_mm[r] * um_per_mm;
         result_.rejected.push_back(
             {result_.row_touch[r],
@@ -99,6 +103,24 @@ class Assembler {
   }
 
  private:
+  /// The rows of the fit that deviate by most among those left out of their feature in their cycle.
+  [[nodiscard]] std::vector<bool> worstOfGroups() const {
+    std::vector<std::size_t> group_of(list_.touches.size(), groups_.size());
+    for (std::size_t g = 0; g < groups_.size(); ++g)
+      for (const std::size_t i : groups_[g].touches) group_of[i] = g;
+    constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
+    std::vector<std::size_t> worst_of(groups_.size() + 1, none);
+    for (std::size_t r = 0; r < result_.row_touch.size(); ++r) {
+      if (result_.fit.used[r]) continue;
+      std::size_t& worst = worst_of[group_of[result_.row_touch[r]]];
+      if (worst == none || std::abs(result_.fit.studentised[r]) > std::abs(result_.fit.studentised[worst])) worst = r;
+    }
+    std::vector<bool> out(result_.row_touch.size(), false);
+    for (const std::size_t r : worst_of)
+      if (r != none) out[r] = true;
+    return out;
+  }
+
   /// Throws InputError where no touch is left.
   void requireTouches(const std::vector<bool>& excluded) const {
     std::size_t count = 0;
@@ -206,7 +228,34 @@ class Assembler {
 
   [[nodiscard]] double radiusOf(int setting) const {
     const auto& [feature, stylus, c_deg] = settings_[static_cast<std::size_t>(setting)];
-    return assembly_.radius(feature, stylus).value_or(0.0);
+    const std::optional<double> stated = assembly_.radius(feature, stylus);
+    if (stated || guessed_radius_.empty()) return stated.value_or(0.0);
+    return guessed_radius_[static_cast<std::size_t>(setting)];
+  }
+
+  /// Where the machine file states no diameter: how far the touches lie from the nominal place along their approach.
+  void guessRadii() {
+    if (!assembly_.nominal) return;
+    const double side = assembly_.kind == FeatureKind::Sphere ? -1.0 : 1.0;
+    std::vector<std::vector<double>> along(settings_.size());
+    for (const Group& g : groups_) {
+      const auto& [feature, stylus, c_deg] = settings_[static_cast<std::size_t>(g.setting)];
+      const auto nominal = assembly_.nominal(feature, c_deg);
+      if (!nominal || assembly_.radius(feature, stylus)) continue;
+      for (const std::size_t i : g.touches) {
+        const Touch& t = list_.touches[i];
+        if (assembly_.kind == FeatureKind::Hole && isSurfaceTouch(t, assembly_.axis)) continue;
+        along[static_cast<std::size_t>(g.setting)].push_back(side * (t.position_mm - *nominal).dot(t.approach));
+      }
+    }
+    std::vector<double> guessed(settings_.size(), 0.0);
+    bool any = false;
+    for (std::size_t s = 0; s < along.size(); ++s) {
+      if (along[s].empty()) continue;
+      guessed[s] = std::max(0.0, median(std::move(along[s])));
+      any = true;
+    }
+    if (any) guessed_radius_ = std::move(guessed);
   }
 
   /// Where the touch says that the centre of its feature is; components along the surface are meaningless but small.
@@ -721,6 +770,7 @@ class Assembler {
   std::vector<GroupKey> settings_;
   std::vector<Group> groups_;
   ArtefactPlace place_;
+  std::vector<double> guessed_radius_;  ///< by setting, where none is stated; empty: all are
   std::vector<double> radius_;
   std::vector<Eigen::Vector3d> base_;
 };

@@ -445,6 +445,10 @@ HoleCycleResult evaluateHoleCycles(const TouchList& list, const MachineDescripti
   const ArtefactCertificate certificate = ArtefactCertificate::of(machine, artefact);
   result.against_certificate = compareWithCertificate(result, artefact, certificate, log);
   warnOfCertificate(artefact, certificate, result);
+  if (!artefact.hole_diameter_mm)
+    result.warnings.push_back(fmt::format(
+        "machine.json states no hole_diameter_mm of {}: the diameter of each hole is taken from its touches.",
+        artefact.id));
   warnOfASuddenMovement(artefact, result);
   addCertificate(list, artefact, certificate, result);
   const ArtefactGrowth growth = artefactGrowth(certificate, artefact, log, result.cycle_time_s);

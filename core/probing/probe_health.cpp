@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -21,6 +22,86 @@ struct Track {
   std::vector<Eigen::Vector3d> centre_um;
   bool scatters = false;
 };
+
+/// Distance of a touch from the centre of its pass, beyond the radius.
+struct StandOff {
+  std::size_t direction = 0;
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+  double value_um = 0.0;
+};
+
+/// What is left of stand-offs beside a mean of every direction and a centre of every pass.
+struct Scatter {
+  struct OfDirection {
+    double squares_um2 = 0.0;
+    double degrees_of_freedom = 0.0;  ///< expected squares, per variance of a touch
+  };
+  std::vector<OfDirection> directions;
+  double squares_um2 = 0.0;
+  int degrees_of_freedom = 0;
+};
+
+/// One least-squares fit of means and centres, the centres of each pass eliminated first: linear in the passes.
+Scatter scatterOf(const std::vector<std::vector<StandOff>>& passes, std::size_t directions) {
+  const auto count = static_cast<Eigen::Index>(directions);
+  struct Pass {
+    Eigen::MatrixXd free;   ///< takes out what a centre can follow
+    Eigen::MatrixXd means;  ///< of which direction each touch is, the centre taken out
+    Eigen::VectorXd left;
+  };
+  std::vector<Pass> eliminated;
+  Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(count, count);
+  Eigen::VectorXd right = Eigen::VectorXd::Zero(count);
+  Eigen::Index free = 0;
+  for (const std::vector<StandOff>& touches : passes) {
+    const auto n = static_cast<Eigen::Index>(touches.size());
+    Eigen::MatrixXd normals(n, 3);
+    Eigen::MatrixXd means = Eigen::MatrixXd::Zero(n, count);
+    Eigen::VectorXd value(n);
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const StandOff& s = touches[static_cast<std::size_t>(i)];
+      normals.row(i) = s.normal;
+      means(i, static_cast<Eigen::Index>(s.direction)) = 1.0;
+      value[i] = s.value_um;
+    }
+    const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(normals);
+    const Eigen::MatrixXd centre = Eigen::MatrixXd(qr.householderQ()).leftCols(qr.rank());
+    Pass pass;
+    pass.free = Eigen::MatrixXd::Identity(n, n) - centre * centre.transpose();
+    pass.means = pass.free * means;
+    pass.left = pass.free * value;
+    normal += pass.means.transpose() * pass.means;
+    right += pass.means.transpose() * pass.left;
+    free += n - qr.rank();
+    eliminated.push_back(std::move(pass));
+  }
+  // Means of all directions can follow a centre that all passes share: what the eigenvalues leave is known.
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(normal);
+  const double largest = std::max(1.0, eigen.eigenvalues().maxCoeff());
+  Eigen::VectorXd inverse = Eigen::VectorXd::Zero(count);
+  for (Eigen::Index k = 0; k < count; ++k) {
+    if (eigen.eigenvalues()[k] < 1e-6 * largest) continue;
+    inverse[k] = 1.0 / eigen.eigenvalues()[k];
+    --free;
+  }
+  const Eigen::MatrixXd covariance = eigen.eigenvectors() * inverse.asDiagonal() * eigen.eigenvectors().transpose();
+  const Eigen::VectorXd mean = covariance * right;
+  Scatter out;
+  out.directions.resize(directions);
+  out.degrees_of_freedom = static_cast<int>(std::max<Eigen::Index>(0, free));
+  for (std::size_t k = 0; k < passes.size(); ++k) {
+    const Pass& pass = eliminated[k];
+    const Eigen::VectorXd left = pass.left - pass.means * mean;
+    const Eigen::MatrixXd of_means = pass.means * covariance;
+    for (Eigen::Index i = 0; i < left.size(); ++i) {
+      Scatter::OfDirection& own = out.directions[passes[k][static_cast<std::size_t>(i)].direction];
+      own.squares_um2 += left[i] * left[i];
+      own.degrees_of_freedom += std::max(0.0, pass.free(i, i) - of_means.row(i).dot(pass.means.row(i)));
+    }
+    out.squares_um2 += left.squaredNorm();
+  }
+  return out;
+}
 
 StylusHealth check(const TouchList& list, const std::vector<std::size_t>& indices, double ball_diameter_mm,
                    double stylus_radius_mm, const ProbeHealthOptions& options, Track& track) {
@@ -67,6 +148,7 @@ StylusHealth check(const TouchList& list, const std::vector<std::size_t>& indice
     std::vector<double> stand_off;
   };
   std::vector<Direction> directions;
+  std::map<std::size_t, std::size_t> direction_of;  // of every touch
   const double near_enough = std::cos(options.same_direction_deg * rad_per_deg);
   for (const std::size_t i : indices) {
     const Touch& t = list.touches[i];
@@ -78,12 +160,24 @@ StylusHealth check(const TouchList& list, const std::vector<std::size_t>& indice
       directions.push_back({t.approach, {}});
       group = &directions.back();
     }
+    direction_of[i] = static_cast<std::size_t>(group - directions.data());
     group->stand_off.push_back((t.position_mm - centre[t.cycle]).norm());
   }
-  double squares = 0.0;
   double worst = 0.0;
   double low = 0.0;
   double high = 0.0;
+  std::vector<std::vector<StandOff>> stand_offs;
+  for (const std::string& pass : passes) {
+    stand_offs.emplace_back();
+    for (const std::size_t i : of_pass[pass]) {
+      const Eigen::Vector3d from_centre = list.touches[i].position_mm - centre[pass];
+      // Beside the radius: a centre that is off by a micrometre turns a normal, and with it what is taken of the
+      // radius.
+      stand_offs.back().push_back(
+          {direction_of[i], from_centre.normalized(), (from_centre.norm() - radius) * um_per_mm});
+    }
+  }
+  const Scatter scatter = scatterOf(stand_offs, directions.size());
   for (const Direction& d : directions) {
     PreTravel p;
     p.approach = d.approach;
@@ -91,12 +185,10 @@ StylusHealth check(const TouchList& list, const std::vector<std::size_t>& indice
     double mean = 0.0;
     for (const double s : d.stand_off) mean += s / p.touches;
     p.pre_travel_um = (radius - mean) * um_per_mm;
-    double own = 0.0;
-    for (const double s : d.stand_off) own += (s - mean) * (s - mean) * um_per_mm * um_per_mm;
-    if (p.touches > 1) {
-      p.repeatability_um = std::sqrt(own / (p.touches - 1));
-      squares += own;
-      health.repeatability_dof += p.touches - 1;
+    const Scatter::OfDirection& own = scatter.directions[health.directions.size()];
+    constexpr double least_free = 0.5;  // below, the centres have taken it all
+    if (own.degrees_of_freedom > least_free) {
+      p.repeatability_um = std::sqrt(own.squares_um2 / own.degrees_of_freedom);
       if (p.repeatability_um > worst) {
         worst = p.repeatability_um;
         health.loose_direction = d.approach;
@@ -106,7 +198,8 @@ StylusHealth check(const TouchList& list, const std::vector<std::size_t>& indice
     high = std::max(high, p.pre_travel_um);
     health.directions.push_back(p);
   }
-  if (health.repeatability_dof > 0) health.repeatability_um = std::sqrt(squares / health.repeatability_dof);
+  health.repeatability_dof = scatter.degrees_of_freedom;
+  if (health.repeatability_dof > 0) health.repeatability_um = std::sqrt(scatter.squares_um2 / health.repeatability_dof);
   const double noise = health.repeatability_dof > 0 ? health.repeatability_um : options.healthy_sigma_um;
   for (PreTravel& p : health.directions) p.standard_uncertainty_um = noise / std::sqrt(double(p.touches));
   health.pre_travel_range_um = high - low;

@@ -32,7 +32,9 @@ struct PreTravel {
   Eigen::Vector3d approach = Eigen::Vector3d::UnitX();
   double pre_travel_um = 0.0;  ///< relative to the mean over all directions
   double standard_uncertainty_um = 0.0;
-  double repeatability_um = 0.0;  ///< standard deviation of the repeats, 0 if there is one touch only
+  /// Standard deviation of a touch beside a mean of every direction and a centre of every pass; 0 where these follow
+  /// every touch of the direction.
+  double repeatability_um = 0.0;
   int touches = 0;
 };
 
@@ -45,9 +47,9 @@ struct StylusHealth {
   Eigen::Vector3d centre_mm = Eigen::Vector3d::Zero();
   std::vector<PreTravel> directions;
   double pre_travel_range_um = 0.0;
-  double repeatability_um = 0.0;  ///< pooled standard deviation of repeats
-  int repeatability_dof = 0;
-  double largest_step_um = 0.0;  ///< largest movement of the sphere's centre between passes (cycles)
+  double repeatability_um = 0.0;  ///< the same of all touches
+  int repeatability_dof = 0;      ///< touches - directions - 3 for every pass but one
+  double largest_step_um = 0.0;   ///< largest movement of the sphere's centre between passes (cycles)
   /// Movement of the centre over the passes, minus what the other styli see on the same sphere where they are there.
   StylusMovement movement;
   bool compared = false;                                      ///< with other styli

@@ -16,6 +16,8 @@ BallCycleModel::BallCycleModel(const BallCycleResult& result, int cycle) : beari
   cycle_ = result.cycles[static_cast<std::size_t>(cycle)];
   theta_ = solution.theta;
   covariance_ = solution.covariance;
+  for (const ProbedFeature& feature : result.features)
+    if (feature.status == FitStatus::Converged) places_mm_.push_back(feature.centre_mm);
 }
 
 std::string BallCycleModel::description() const {
@@ -76,7 +78,13 @@ Field volumetricField(const BallCycleModel& model, const MachineDescription& mac
   field.grid = {u[0], u[1], v[0], v[1], level_mm, n, n, normal_axis};
   field.value.resize(field.grid.size());
   field.sigma.resize(field.grid.size());
-  field.extrapolated.assign(field.grid.size(), false);
+  field.extrapolated.resize(field.grid.size());
+  const auto inPlane = [&](const Eigen::Vector3d& p) {
+    return Eigen::Vector2d(p[field.grid.firstAxis()], p[field.grid.secondAxis()]);
+  };
+  std::vector<Eigen::Vector2d> touched;
+  for (const Eigen::Vector3d& p : model.places_mm()) touched.push_back(inPlane(p));
+  const std::vector<Eigen::Vector2d> hull = convexHull(touched);
   for (int iy = 0; iy < n; ++iy) {
     for (int ix = 0; ix < n; ++ix) {
       DeviationQuery query;
@@ -85,6 +93,7 @@ Field volumetricField(const BallCycleModel& model, const MachineDescription& mac
       const PredictedComponent p = model.predict(query, component);
       field.value[field.grid.index(ix, iy)] = p.value;
       field.sigma[field.grid.index(ix, iy)] = p.sigma;
+      field.extrapolated[field.grid.index(ix, iy)] = !insideHull(hull, inPlane(query.position_mm));
     }
   }
   return field;

@@ -21,6 +21,8 @@ class BallCycleModel : public ErrorModel {
  public:
   /// `cycle` is an index into result.cycles. Throws InternalError if it is none.
   BallCycleModel(const BallCycleResult& result, int cycle);
+  /// Where balls were touched in any cycle, tip, mm.
+  [[nodiscard]] const std::vector<Eigen::Vector3d>& places_mm() const noexcept { return places_mm_; }
   [[nodiscard]] std::string description() const override;
   [[nodiscard]] PredictedComponent predict(const DeviationQuery& query, Component component) const override;
   [[nodiscard]] PredictedComponent predictChange(const DeviationQuery& query, const DeviationQuery& reference,
@@ -36,10 +38,12 @@ class BallCycleModel : public ErrorModel {
   Eigen::Matrix<double, 12, 1> theta_;
   Eigen::Matrix<double, 12, 12> covariance_;
   Eigen::Vector3d bearing_mm_;
+  std::vector<Eigen::Vector3d> places_mm_;
 };
 
 /// A plane of the working space normal to `normal_axis` (0 X, 1 Y, 2 Z) at `level_mm`, n x n nodes over the travel.
-/// Values in um; the grid knows its plane (FieldGrid::normal_axis).
+/// Values in um; the grid knows its plane (FieldGrid::normal_axis). Extrapolated: outside the hull of the balls
+/// touched, seen along the normal.
 [[nodiscard]] Field volumetricField(const BallCycleModel& model, const MachineDescription& machine, Component component,
                                     int normal_axis, double level_mm, const Eigen::Vector3d& tool_offset_mm,
                                     int n = 41);

@@ -117,6 +117,18 @@ TEST_P(CycleKind, TwoThousandCyclesCoverTheTruthAndReachTheBound) {
   std::printf("coverage %.4f, rms / Cramer-Rao %.4f (worst parameter %.3f)\n", rate, std::sqrt(mean_square), worst);
 }
 
+TEST_P(CycleKind, ATouchFarOffTakesNoOthersOfItsFeatureAlong) {
+  // 0.3 mm off, the centre that its feature is linearised about is off as well, and with it all its other touches.
+  const MachineDescription m = machine();
+  VirtualRun run = runCycles(m, 6, {}, 9);
+  const std::size_t per_cycle = run.list.touches.size() / 6;
+  const std::size_t bad = 3 * per_cycle + 17;
+  run.list.touches[bad].position_mm += 0.3 * run.list.touches[bad].approach;
+  const CycleEvaluation evaluation = evaluate(m, run.list);
+  ASSERT_EQ(evaluation.rejected.size(), 1U) << evaluation.rejected.back().reason;
+  EXPECT_EQ(evaluation.rejected.front().touch, bad);
+}
+
 TEST_P(CycleKind, OneBadTouchIsNamedAndLeftOut) {
   const MachineDescription m = machine();
   VirtualProbeOptions options;
@@ -681,6 +693,14 @@ TEST(HoleCycle, WhatTheLengthsRestOnWithoutUncertaintyIsSaid) {
                                   "temperature of bar: taken as exact, though lengths were corrected by up to 57.5 "
                                   "µm/m."));
   EXPECT_THAT(warningsOf(""), ::testing::Contains(::testing::HasSubstr("not corrected for 5.0 K")));
+}
+
+TEST(HoleCycle, WithoutADiameterItIsTakenFromTheTouchesAndSaid) {
+  const MachineDescription m = machineFrom(replaced(holeMachineText(), ",\"hole_diameter_mm\":12", ""));
+  const VirtualRun run = runCycles(machineFrom(holeMachineText()), 3, {}, 2);
+  const HoleCycleResult result = evaluateHoleCycles(run.list, m, m.artefacts.front(), {}, nullptr);
+  EXPECT_TRUE(result.rejected.empty()) << result.rejected.front().reason;
+  EXPECT_THAT(result.warnings, ::testing::Contains(::testing::HasSubstr("states no hole_diameter_mm of bar")));
 }
 
 TEST(HoleCycle, LengthsAtATemperatureThatNobodyKnowsAreSaid) {

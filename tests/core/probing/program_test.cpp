@@ -444,6 +444,59 @@ TEST(VolumetricError, FieldFollowsTheParameters) {
     }
   }
   EXPECT_EQ(volumetricArrows(model, m, {0, 0, -50}, 3).size(), 27U);
+  // Seen from above: what lies between the balls is interpolated, the corners of the travel are not.
+  const Field above = volumetricField(model, m, Component::EZ, 2, 120.0, {0, 0, -50}, 41);
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3d& p : model.places_mm()) middle += p / static_cast<double>(model.places_mm().size());
+  const auto node = [&](double x_mm, double y_mm) {
+    const auto at = [](double from, double to, double v) {
+      return static_cast<int>(std::lround(std::clamp((v - from) / (to - from), 0.0, 1.0) * 40.0));
+    };
+    return above.grid.index(at(above.grid.x_from_mm, above.grid.x_to_mm, x_mm),
+                            at(above.grid.y_from_mm, above.grid.y_to_mm, y_mm));
+  };
+  EXPECT_FALSE(above.extrapolated[node(middle.x(), middle.y())]);
+  EXPECT_TRUE(above.extrapolated[node(1e6, 1e6)]);
+  EXPECT_TRUE(above.extrapolated[node(-1e6, -1e6)]);
+}
+
+/// A ball touched from five or nine sides in ten passes: what is found is what the touches scatter, not what the
+/// centres of the passes leave of it.
+TEST(ProbeHealth, RepeatabilityIsThatOfTheTouches) {
+  const MachineDescription m = machineFrom(ballMachineText());
+  const double radius_mm = 0.5 * m.artefacts.front().balls.front().diameter_mm + m.styli.front().radius_mm;
+  std::vector<Eigen::Vector3d> sides{{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, -1}};
+  for (const std::size_t count : {5U, 9U}) {
+    if (count == 9U)
+      for (const double x : {1.0, -1.0})
+        for (const double y : {1.0, -1.0}) sides.emplace_back(Eigen::Vector3d(x, y, -1.0).normalized());
+    double squares = 0.0;
+    double freedom = 0.0;
+    Random random(17);
+    for (int run = 0; run < 60; ++run) {
+      TouchList list;
+      for (int pass = 0; pass < 10; ++pass) {
+        const Eigen::Vector3d centre(200.0 + 0.002 * pass, 200.0, 100.0 - 0.003 * pass);
+        for (std::size_t k = 0; k < sides.size(); ++k) {
+          Touch t;
+          t.time_s = 100.0 * pass + 10.0 * static_cast<double>(k);
+          t.cycle = "Q" + std::to_string(pass);
+          t.artefact = m.artefacts.front().id;
+          t.feature = m.artefacts.front().balls.front().id;
+          t.stylus = m.styli.front().id;
+          t.touch = static_cast<int>(k);
+          t.approach = sides[k];
+          t.position_mm = centre - (radius_mm + random.normal(0.0, 1.5e-3)) * sides[k];
+          list.touches.push_back(t);
+        }
+      }
+      const StylusHealth health = checkProbeHealth(list, m).front();
+      EXPECT_EQ(health.repeatability_dof, static_cast<int>(10 * count - count - 27)) << count;
+      squares += health.repeatability_dof * std::pow(health.repeatability_um, 2);
+      freedom += health.repeatability_dof;
+    }
+    EXPECT_NEAR(std::sqrt(squares / freedom), 1.5, 0.06) << count << " sides";
+  }
 }
 
 TEST(ProbeHealth, LobesRepeatabilityAndALooseStylus) {

@@ -46,7 +46,7 @@ QString weakText(const Eigen::VectorXd& combination, const std::vector<std::stri
 
 CycleModelPage::CycleModelPage(PageContext page_context, QWidget* parent)
     : Page(std::move(page_context), StepId::Model, parent),
-      results_(TouchResults::of(session())),
+      results_(TouchResults::of(session(), context().jobs)),
       options_(session(), context().undo, [this] {
         refresh();
         if (session().state("fit").there) runAlone("fit");
@@ -94,6 +94,9 @@ CycleModelPage::CycleModelPage(PageContext page_context, QWidget* parent)
   showHints(trends_);
   showHints(view_);
   showHints(line_);
+  connect(&results_, &TouchResults::read, this, [this] {
+    if (isVisible()) refresh();
+  });
   connect(fit_, &QPushButton::clicked, this, [this] { runTask("fit"); });
   connect(group_, &Segments::chosen, this, &CycleModelPage::showTrends);
   connect(cycle_, &QComboBox::activated, this, [this](int) {
@@ -104,7 +107,7 @@ CycleModelPage::CycleModelPage(PageContext page_context, QWidget* parent)
 
 TaskInputs CycleModelPage::taskInputs() {
   TaskInputs inputs = session().taskInputs();
-  inputs.touches = results_.touches();
+  inputs.touches = results_.asListed();
   return inputs;
 }
 
@@ -137,8 +140,9 @@ void CycleModelPage::refresh() {
     growth_->setEnabled(second_axis_->isChecked());
     trust_->setEnabled(second_axis_->isChecked());
   });
+  const ShownTask stored = shown("fit", tr("Reading the cycles"));
   if (list == nullptr) {
-    callout()->show(Tone::Bad, results_.failure());
+    callout()->show(results_.reading() ? Tone::Neutral : Tone::Bad, results_.whyNone());
     return;
   }
   const bool evaluated = session().state("evaluate").there;
@@ -149,7 +153,6 @@ void CycleModelPage::refresh() {
     return;
   }
   callout()->setAction({}, {});
-  const ShownTask stored = shown("fit", tr("Reading the cycles"));
   if (stored.reading) return;
   evaluation_ = stored.as<TouchEvaluation>();
   const ResultState& state = stored.state;

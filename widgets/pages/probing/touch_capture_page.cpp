@@ -52,7 +52,7 @@ QString direction(const Eigen::Vector3d& n) {
 }  // namespace
 
 TouchCapturePage::TouchCapturePage(PageContext page_context, QWidget* parent)
-    : Page(std::move(page_context), StepId::Capture, parent), results_(TouchResults::of(session())) {
+    : Page(std::move(page_context), StepId::Capture, parent), results_(TouchResults::of(session(), context().jobs)) {
   setInstruction(tr("Run the measuring cycle on the machine, check every touch, and take missing ones again."));
   check_ = makeButton(tr("Check the touches"), nullptr, "primary");
   addAction(check_);
@@ -109,6 +109,9 @@ TouchCapturePage::TouchCapturePage(PageContext page_context, QWidget* parent)
   showHints(view_);
   view_->setMachineVisible(false);
 
+  connect(&results_, &TouchResults::read, this, [this] {
+    if (isVisible()) refresh();
+  });
   connect(check_, &QPushButton::clicked, this, [this] { runTask("check"); });
   connect(make_program_, &QPushButton::clicked, this, &TouchCapturePage::makeProgram);
   connect(control_, &QComboBox::activated, this, &TouchCapturePage::makeProgram);
@@ -141,7 +144,7 @@ void TouchCapturePage::runAll() {
 
 TaskInputs TouchCapturePage::taskInputs() {
   TaskInputs inputs = session().taskInputs();
-  inputs.touches = results_.touches();
+  inputs.touches = results_.asListed();
   return inputs;
 }
 
@@ -149,16 +152,8 @@ void TouchCapturePage::refresh() {
   const auto campaign = session().campaign();
   if (campaign == nullptr) return;
   const bool other = noticeCampaign();
-  if (other) chooseCaptureTab(*this, session());
-  const auto list = results_.touches();
-  if (list == nullptr) {
-    verdicts_.clear();
-    fillCycles();
-    callout()->show(Tone::Bad,
-                    results_.failure().isEmpty() ? tr("The campaign lists no touches yet.") : results_.failure());
-    return;
-  }
   if (other) {
+    chooseCaptureTab(*this, session());
     program_.reset();
     program_verdict_->set(Tone::Neutral, {});
     cycle_.clear();
@@ -166,8 +161,15 @@ void TouchCapturePage::refresh() {
     view_->setMachine(campaign->machine);
     view_->setMachineVisible(machine_->isChecked());
   }
-  forgetOldProgram();
+  const auto list = results_.touches();
   const ShownTask check = shown("check", tr("Reading the touches"));
+  if (list == nullptr) {
+    verdicts_.clear();
+    fillCycles();
+    callout()->show(results_.reading() ? Tone::Neutral : Tone::Bad, results_.whyNone());
+    return;
+  }
+  forgetOldProgram();
   const ResultState& state = check.state;
   evaluation_ = check.as<TouchEvaluation>();
   judged_ = evaluation_ != nullptr;

@@ -44,7 +44,7 @@ QString stationName(const ProbedFeature& f, bool holes) {
 }  // namespace
 
 TouchEvaluationPage::TouchEvaluationPage(PageContext page_context, QWidget* parent)
-    : Page(std::move(page_context), StepId::Calibrate, parent), results_(TouchResults::of(session())) {
+    : Page(std::move(page_context), StepId::Calibrate, parent), results_(TouchResults::of(session(), context().jobs)) {
   setInstruction(tr("Turn touches into features and deviations, and see whether probe and artefact can be trusted."));
   evaluate_ = makeButton(tr("Evaluate the touches"), nullptr, "primary");
   addAction(evaluate_);
@@ -121,6 +121,9 @@ TouchEvaluationPage::TouchEvaluationPage(PageContext page_context, QWidget* pare
   content()->addWidget(tabs_, 1);
   showHints(plot_);
   showHints(grown_);
+  connect(&results_, &TouchResults::read, this, [this] {
+    if (isVisible()) refresh();
+  });
   connect(evaluate_, &QPushButton::clicked, this, [this] { runTask("evaluate"); });
   connect(cycle_, &QComboBox::activated, this, &TouchEvaluationPage::showFeatures);
   connect(point_, &QComboBox::activated, this, &TouchEvaluationPage::showDeviations);
@@ -128,7 +131,7 @@ TouchEvaluationPage::TouchEvaluationPage(PageContext page_context, QWidget* pare
 
 TaskInputs TouchEvaluationPage::taskInputs() {
   TaskInputs inputs = session().taskInputs();
-  inputs.touches = results_.touches();
+  inputs.touches = results_.asListed();
   return inputs;
 }
 
@@ -151,8 +154,10 @@ void TouchEvaluationPage::refresh() {
     details_ = {};
     clear();
   }
-  if (results_.touches() == nullptr) {
-    callout()->show(Tone::Bad, results_.failure());
+  const auto list = results_.touches();
+  const ShownTask beside = shown("evaluate", tr("Reading the evaluation"));
+  if (list == nullptr) {
+    callout()->show(results_.reading() ? Tone::Neutral : Tone::Bad, results_.whyNone());
     return;
   }
   const auto stored = session().evaluation();
@@ -162,7 +167,6 @@ void TouchEvaluationPage::refresh() {
                                      "reason, the others are evaluated."));
     return;
   }
-  const ShownTask beside = shown("evaluate", tr("Reading the evaluation"));
   const ResultState& state = beside.state;
   if (!state.current) {
     callout()->show(Tone::Outdated, tr("Changed since this was evaluated: %1. Evaluate again.").arg(state.changed));
