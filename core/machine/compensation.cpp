@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "core/base/units.h"
+#include "core/math/scattered_interpolation.h"
 
 namespace spindrift {
 namespace {
@@ -107,10 +108,15 @@ std::string compensationGridCsv(const std::vector<CompensationNode>& nodes,
     text += fmt::format("{},{},{}", n.position_mm.x(), n.position_mm.y(), n.position_mm.z());
     for (const Eigen::Vector3d* values : {&n.correction_um, &n.sigma_um})
       for (Eigen::Index i = 0; i < 3; ++i) text += fieldOf((*values)[i], known(i));
-    if (measured) text += measured->contains(n.position_mm) ? ",0" : ",1";
+    if (measured) text += measured->surrounds(n.position_mm) ? ",0" : ",1";
     text += '\n';
   }
   return text;
+}
+
+bool MeasuredBox::surrounds(const Eigen::Vector3d& position_mm) const {
+  if (places_mm.empty()) return contains(position_mm);
+  return (nearestInHull(places_mm, position_mm) - position_mm).norm() <= least_extent_mm;
 }
 
 AxisComponentTable axisComponents(const ErrorModel& model, const MachineDescription& machine, const std::string& axis,

@@ -45,11 +45,14 @@ struct MeasuredBox {
   Eigen::Vector3d low_mm = Eigen::Vector3d::Zero();
   Eigen::Vector3d high_mm = Eigen::Vector3d::Zero();
   std::array<bool, 3> displacement{true, true, true};  ///< EX, EY, EZ
+  std::vector<Eigen::Vector3d> places_mm = {};         ///< none: the whole box
 
   [[nodiscard]] bool contains(const Eigen::Vector3d& position_mm) const noexcept {
     constexpr double slack_mm = 1e-6;
     return ((position_mm - low_mm).array() >= -slack_mm).all() && ((high_mm - position_mm).array() >= -slack_mm).all();
   }
+  /// Between the places: in their hull, or within least_extent_mm of it.
+  [[nodiscard]] bool surrounds(const Eigen::Vector3d& position_mm) const;
   [[nodiscard]] bool extendsAlong(int axis) const noexcept { return high_mm[axis] - low_mm[axis] >= least_extent_mm; }
   /// "measured from 0 to 400 mm; beyond that extrapolated", for the head of a file: what a control does with it does
   /// not know the page that it came from.
@@ -66,7 +69,8 @@ struct CompensationNode {
                                                              const CompensationGridOptions& options,
                                                              const DeviationQuery& conditions);
 /// x_mm,y_mm,z_mm,correction_x_um,correction_y_um,correction_z_um,sigma_x_um,sigma_y_um,sigma_z_um; with `measured`
-/// also extrapolated: 1 for a node outside that box; and empty fields for a displacement that was not measured.
+/// also extrapolated: 1 for a node that it does not surround; and empty fields for a displacement that was not
+/// measured.
 [[nodiscard]] std::string compensationGridCsv(const std::vector<CompensationNode>& nodes,
                                               const std::optional<MeasuredBox>& measured = {});
 

@@ -14,6 +14,7 @@
 #include <tuple>
 #include <unordered_set>
 
+#include "core/base/count_text.h"
 #include "core/base/text.h"
 #include "core/math/distributions.h"
 #include "core/math/lack_of_fit.h"
@@ -335,15 +336,27 @@ StateDifferences differencesFromReference(const ObservationSet& set, const std::
   using Key = std::tuple<std::string, Component, double>;
   const auto keyOf = [](const Observation& o) { return Key(o.point, o.component, o.c_deg); };
   std::map<Key, std::vector<std::size_t>> of_point;
-  // A reading approached from another side, or with another tool, is another measurand: backlash is no change. Where
-  // the reference has none from the same side, those from the others stand for it.
+  // A reading approached from another side along its component, or with another tool, is another measurand: backlash is
+  // no change. Where the reference has none from the same side, those from the other stand for it, and it is said.
+  const auto side = [](const Observation& o) { return o.approach[axisIndex(o.component)]; };
+  struct References {
+    std::vector<std::size_t> rows;
+    bool from_another_side = false;
+  };
   const auto referencesOf = [&](const Observation& o) {
-    const std::vector<std::size_t>& there = of_point[keyOf(o)];
-    std::vector<std::size_t> alike;
+    const std::vector<std::size_t>& there = of_point.at(keyOf(o));
+    std::vector<std::size_t> same_side, alike;
     for (const std::size_t r : there) {
-      if (set.rows[r].approach == o.approach && set.rows[r].tool_offset_mm == o.tool_offset_mm) alike.push_back(r);
+      const Observation& before = set.rows[r];
+      if (side(before) != side(o)) continue;
+      same_side.push_back(r);
+      if (before.approach == o.approach && before.tool_offset_mm == o.tool_offset_mm) alike.push_back(r);
     }
-    return alike.empty() ? there : alike;
+    if (!alike.empty()) return References{alike, false};
+    if (!same_side.empty()) return References{same_side, false};
+    const bool stated = side(o) != 0.0 && std::none_of(there.begin(), there.end(),
+                                                       [&](std::size_t r) { return side(set.rows[r]) == 0.0; });
+    return References{there, stated};
   };
   std::vector<std::size_t> in_state;
   bool rotations = false;
@@ -361,12 +374,21 @@ StateDifferences differencesFromReference(const ObservationSet& set, const std::
     change.warnings.emplace_back("Observed rotations are left out: the nine parameters are fitted to displacements.");
   }
   std::vector<std::string> without_reference;
+  std::size_t from_another_side = 0;
   for (const std::size_t i : in_state) {
     if (relative && !of_point.contains(keyOf(set.rows[i]))) {
       without_reference.push_back(fmt::format("{} of {}", toString(set.rows[i].component), set.rows[i].point));
-    } else {
-      change.rows.push_back(i);
+      continue;
     }
+    change.rows.push_back(i);
+    if (relative && referencesOf(set.rows[i]).from_another_side) ++from_another_side;
+  }
+  if (from_another_side > 0) {
+    change.warnings.push_back(fmt::format(
+        "{} of {} {} compared with readings of {} that were approached from another side: the reversal error counts as "
+        "a change in them.",
+        from_another_side, countOf(change.rows.size(), "value"), from_another_side == 1 ? "is" : "are",
+        change.reference));
   }
   if (!without_reference.empty()) {
     change.warnings.push_back(fmt::format("{} was not measured in the reference state {} and is left out.",
@@ -380,7 +402,7 @@ StateDifferences differencesFromReference(const ObservationSet& set, const std::
   for (const std::size_t i : change.rows) {
     columnOf(i);
     if (relative) {
-      for (const std::size_t r : referencesOf(set.rows[i])) columnOf(r);
+      for (const std::size_t r : referencesOf(set.rows[i]).rows) columnOf(r);
     }
   }
   const auto size = static_cast<Eigen::Index>(column.size());
@@ -399,7 +421,7 @@ StateDifferences differencesFromReference(const ObservationSet& set, const std::
     const auto row = static_cast<Eigen::Index>(k);
     B(row, column[change.rows[k]]) = 1.0;
     if (!relative) continue;
-    const std::vector<std::size_t> references = referencesOf(set.rows[change.rows[k]]);
+    const std::vector<std::size_t> references = referencesOf(set.rows[change.rows[k]]).rows;
     double total = 0.0;
     for (const std::size_t r : references) total += 1.0 / (set.rows[r].sigma * set.rows[r].sigma);
     for (const std::size_t r : references) B(row, column[r]) -= 1.0 / (set.rows[r].sigma * set.rows[r].sigma) / total;
@@ -457,6 +479,7 @@ NineParameterFit fitNineParameters(const ObservationSet& observations, const Nin
     residual.point = o.point;
     residual.component = o.component;
     residual.position_mm = o.position_mm;
+    residual.c_deg = o.c_deg;
     residual.time_s = o.time_s;
     residual.value_um = change.value_um(i);
     residual.sigma_um = change.sigma_um(static_cast<std::size_t>(i));

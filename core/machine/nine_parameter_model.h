@@ -90,6 +90,7 @@ struct NineParameterResidual {
   std::string point;
   Component component = Component::EX;
   Eigen::Vector3d position_mm = Eigen::Vector3d::Zero();
+  double c_deg = 0.0;  ///< angle of the table
   double time_s = 0.0;
   double value_um = 0.0;     ///< change from the reference state
   double sigma_um = 0.0;     ///< its standard uncertainty, with the noise of the reference

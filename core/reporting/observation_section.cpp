@@ -26,6 +26,16 @@ constexpr std::size_t most_maps = 4;
 
 using Key = std::pair<std::string, Component>;
 
+/// A reading approached from another side along its component, or with another tool, is another measurand: backlash is
+/// no change.
+using Measurand = std::tuple<Key, double, std::array<double, 3>>;
+Measurand measurandOf(const Observation& o) {
+  const Eigen::Vector3d& tool = o.tool_offset_mm;
+  return {Key{o.point, o.component},
+          isRotation(o.component) ? 0.0 : o.approach[axisIndex(o.component)],
+          {tool.x(), tool.y(), tool.z()}};
+}
+
 /// An observation minus the first of its point and component, with the uncertainty of the difference.
 struct Change {
   const Observation* row = nullptr;
@@ -48,9 +58,9 @@ ObservationSet placesOf(const ObservationSet& observations) {
 /// In order of time within each point and component; the first of each is zero by definition and not among them.
 std::vector<Change> changesOf(const ObservationSet& observations) {
   const auto& rows = observations.rows;
-  std::map<Key, std::vector<std::size_t>> series;
+  std::map<Measurand, std::vector<std::size_t>> series;
   for (std::size_t i = 0; i < rows.size(); ++i)
-    if (rows[i].use != ObservationUse::Exclude) series[{rows[i].point, rows[i].component}].push_back(i);
+    if (rows[i].use != ObservationUse::Exclude) series[measurandOf(rows[i])].push_back(i);
   std::vector<Change> changes;
   for (auto& [key, indices] : series) {
     std::stable_sort(indices.begin(), indices.end(),
@@ -67,9 +77,9 @@ std::vector<Change> changesOf(const ObservationSet& observations) {
 }
 
 std::size_t medianCount(const ObservationSet& observations) {
-  std::map<Key, std::size_t> counts;
+  std::map<Measurand, std::size_t> counts;
   for (const Observation& o : observations.rows)
-    if (o.use != ObservationUse::Exclude) ++counts[{o.point, o.component}];
+    if (o.use != ObservationUse::Exclude) ++counts[measurandOf(o)];
   std::vector<std::size_t> sorted;
   for (const auto& [key, count] : counts) sorted.push_back(count);
   std::sort(sorted.begin(), sorted.end());

@@ -6,7 +6,9 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
+#include <set>
 
 #include "core/base/csv.h"
 #include "core/base/json_reader.h"
@@ -135,6 +137,44 @@ void finishPoint(CompensationPoint& p) {
   }
 }
 
+/// The points of a fit with what was measured there: the mean of repeats, of both directions of approach. At another
+/// angle of the table a point is another place, and named so where it was measured at several.
+void addMeasuredPoints(const NineParameterFit& fit, CompensationPlan& plan) {
+  std::map<std::string, std::set<double>> angles;
+  for (const NineParameterResidual& r : fit.residuals) angles[r.point].insert(r.c_deg);
+  std::map<std::pair<std::string, double>, std::size_t> index;
+  std::vector<std::array<std::vector<Eigen::Index>, 3>> readings;  // of every point
+  for (std::size_t k = 0; k < fit.residuals.size(); ++k) {
+    const NineParameterResidual& r = fit.residuals[k];
+    plan.time_s = std::max(plan.time_s, r.time_s);
+    if (isRotation(r.component)) continue;
+    const auto [at, fresh] = index.try_emplace({r.point, r.c_deg}, plan.points.size());
+    if (fresh) {
+      plan.points.emplace_back();
+      plan.points.back().point = angles.at(r.point).size() > 1 ? fmt::format("{}, C {:g}°", r.point, r.c_deg) : r.point;
+      plan.points.back().position_mm = r.position_mm;
+      readings.emplace_back();
+    }
+    readings[at->second][static_cast<std::size_t>(axisIndex(r.component))].push_back(static_cast<Eigen::Index>(k));
+    plan.points[at->second].used = plan.points[at->second].used && r.used;
+  }
+  for (std::size_t point = 0; point < readings.size(); ++point) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::vector<Eigen::Index>& of = readings[point][i];
+      if (of.empty()) continue;
+      double sum = 0.0;
+      double variance = 0.0;  // repeats share the noise of what they are compared with
+      for (const Eigen::Index a : of) {
+        sum += fit.residuals[static_cast<std::size_t>(a)].value_um;
+        for (const Eigen::Index b : of) variance += fit.value_covariance(a, b);
+      }
+      const auto count = static_cast<double>(of.size());
+      plan.points[point].measured_um[i] = sum / count;
+      plan.points[point].measured_sigma_um[i] = std::sqrt(std::max(0.0, variance)) / count;
+    }
+  }
+}
+
 PreparedModel prepareNineParameters(const ObservationSet& observations, const CompensationRequest& request,
                                     CompensationPlan& plan) {
   NineParameterOptions options = request.fit;
@@ -169,22 +209,7 @@ PreparedModel prepareNineParameters(const ObservationSet& observations, const Co
   addUnseen(fit, *model, orders, plan);
   PreparedModel out{model, {}};
   out.conditions.state = fit.state;
-  std::map<std::string, std::size_t> index;
-  for (const NineParameterResidual& r : fit.residuals) {
-    plan.time_s = std::max(plan.time_s, r.time_s);
-    if (isRotation(r.component)) continue;
-    const auto [at, fresh] = index.try_emplace(r.point, plan.points.size());
-    if (fresh) {
-      plan.points.emplace_back();
-      plan.points.back().point = r.point;
-      plan.points.back().position_mm = r.position_mm;
-    }
-    CompensationPoint& p = plan.points[at->second];
-    const auto i = static_cast<std::size_t>(axisIndex(r.component));
-    p.measured_um[i] = r.value_um;
-    p.measured_sigma_um[i] = r.sigma_um;
-    p.used = p.used && r.used;
-  }
+  addMeasuredPoints(fit, plan);
   for (CompensationPoint& p : plan.points) {
     DeviationQuery query = out.conditions;
     query.position_mm = p.position_mm;
@@ -501,6 +526,21 @@ void makeControlTables(const MachineDescription& machine, const PreparedModel& p
   }
 }
 
+/// Of what the model was made from: what was held out only judges it.
+MeasuredBox measuredBox(const std::vector<CompensationPoint>& points) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  MeasuredBox measured{Eigen::Vector3d::Constant(infinity), Eigen::Vector3d::Constant(-infinity), {}};
+  const bool any_used = std::any_of(points.begin(), points.end(), [](const CompensationPoint& p) { return p.used; });
+  for (const CompensationPoint& p : points) {
+    if (any_used && !p.used) continue;
+    for (std::size_t i = 0; i < 3; ++i) measured.displacement[i] = measured.displacement[i] || p.measured_um[i];
+    measured.low_mm = measured.low_mm.cwiseMin(p.position_mm);
+    measured.high_mm = measured.high_mm.cwiseMax(p.position_mm);
+    measured.places_mm.push_back(p.position_mm);
+  }
+  return measured;
+}
+
 void makeFiles(const MachineDescription& machine, const PreparedModel& prepared, const CompensationRequest& request,
                CompensationPlan& plan) {
   const ErrorModel& model = *prepared.everywhere;
@@ -525,12 +565,7 @@ void makeFiles(const MachineDescription& machine, const PreparedModel& prepared,
   }
   plan.files.push_back({"compensation_points.csv", "Corrections at the measured points",
                         fmt::format("Correction to add to the command: minus the deviation, {}.", relative), csv});
-  MeasuredBox measured{plan.points.front().position_mm, plan.points.front().position_mm, {}};
-  for (const CompensationPoint& p : plan.points) {
-    for (std::size_t i = 0; i < 3; ++i) measured.displacement[i] = measured.displacement[i] || p.measured_um[i];
-    measured.low_mm = measured.low_mm.cwiseMin(p.position_mm);
-    measured.high_mm = measured.high_mm.cwiseMax(p.position_mm);
-  }
+  const MeasuredBox measured = measuredBox(plan.points);
   CompensationGridOptions grid = CompensationGridOptions::travelOf(machine);
   for (std::size_t i = 0; i < 3; ++i) {
     if (grid.nodes[i] > 1) grid.nodes[i] = request.positions;

@@ -3,11 +3,14 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/SparseCore>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <set>
-#include <tuple>
+#include <utility>
 
 #include "core/base/count_text.h"
 #include "core/base/error.h"
@@ -26,12 +29,15 @@ constexpr double coverage = 2.0;
 using SeriesKey = std::pair<std::string, std::pair<Component, double>>;
 
 struct Value {
-  double value = 0.0;
-  double variance = 0.0;
+  /// Repeats, by the direction of approach along the component; 0: not stated, or of a rotation.
+  std::map<double, std::vector<std::size_t>> rows;
   Eigen::Vector3d position_mm = Eigen::Vector3d::Zero();
 };
 
-/// Mean of the repeats of every state, states in order of time; the first one is what the others are relative to.
+/// A sum of rows with weights.
+using Combination = std::vector<std::pair<std::size_t, double>>;
+
+/// The readings of every state, states in order of time; the first one is what the others are relative to.
 struct Course {
   std::vector<std::string> states;
   std::map<std::string, Value> values;
@@ -41,24 +47,110 @@ struct Course {
 constexpr double same_place_mm = 1.0;
 
 std::map<SeriesKey, Course, NaturalOrder> coursesOf(const ObservationSet& set) {
-  std::vector<const Observation*> rows;
-  for (const Observation& o : set.rows)
-    if (o.use != ObservationUse::Exclude) rows.push_back(&o);
-  std::stable_sort(rows.begin(), rows.end(), [](auto* a, auto* b) { return a->time_s < b->time_s; });
+  std::vector<std::size_t> rows;
+  for (std::size_t i = 0; i < set.rows.size(); ++i)
+    if (set.rows[i].use != ObservationUse::Exclude) rows.push_back(i);
+  std::stable_sort(rows.begin(), rows.end(),
+                   [&](std::size_t a, std::size_t b) { return set.rows[a].time_s < set.rows[b].time_s; });
   std::map<SeriesKey, Course, NaturalOrder> out;
-  std::map<std::pair<SeriesKey, std::string>, double> weight;
-  for (const Observation* o : rows) {
-    const SeriesKey key{o->point, {o->component, o->c_deg}};
-    Course& course = out[key];
-    if (!course.values.contains(o->state)) course.states.push_back(o->state);
-    Value& v = course.values[o->state];
-    double& w = weight[{key, o->state}];
-    const double add = 1.0 / (o->sigma * o->sigma);
-    v.value = (v.value * w + o->value * add) / (w + add);
-    w += add;
-    v.variance = 1.0 / w;
-    v.position_mm = o->position_mm;
+  for (const std::size_t i : rows) {
+    const Observation& o = set.rows[i];
+    Course& course = out[{o.point, {o.component, o.c_deg}}];
+    if (!course.values.contains(o.state)) course.states.push_back(o.state);
+    Value& v = course.values[o.state];
+    v.rows[isRotation(o.component) ? 0.0 : o.approach[axisIndex(o.component)]].push_back(i);
+    v.position_mm = o.position_mm;
   }
+  return out;
+}
+
+/// The weighted mean of rows, times `factor`.
+void addMean(const ObservationSet& set, const std::vector<std::size_t>& rows, double factor, Combination& sum) {
+  double total = 0.0;
+  for (const std::size_t row : rows) total += 1.0 / (set.rows[row].sigma * set.rows[row].sigma);
+  for (const std::size_t row : rows)
+    sum.emplace_back(row, factor / (set.rows[row].sigma * set.rows[row].sigma) / total);
+}
+
+struct ChangeOfRows {
+  Combination rows;
+  bool from_another_side = false;  ///< nothing was approached from one side in both states
+};
+
+/// One state minus another: side by side where there are readings from the same side in both, for a reversal error is
+/// no change.
+ChangeOfRows changeOf(const ObservationSet& set, const Value& value, const Value& zero) {
+  std::vector<double> sides;
+  for (const auto& [side, rows] : value.rows)
+    if (zero.rows.contains(side)) sides.push_back(side);
+  ChangeOfRows out;
+  for (const double side : sides) {
+    const double part = 1.0 / static_cast<double>(sides.size());
+    addMean(set, value.rows.at(side), part, out.rows);
+    addMean(set, zero.rows.at(side), -part, out.rows);
+  }
+  if (!sides.empty()) return out;
+  const auto all = [](const Value& v) {
+    std::vector<std::size_t> rows;
+    for (const auto& [side, some] : v.rows) rows.insert(rows.end(), some.begin(), some.end());
+    return rows;
+  };
+  addMean(set, all(value), 1.0, out.rows);
+  addMean(set, all(zero), -1.0, out.rows);
+  out.from_another_side = !value.rows.contains(0.0) && !zero.rows.contains(0.0);
+  return out;
+}
+
+double valueOf(const ObservationSet& set, const Combination& sum) {
+  double value = 0.0;
+  for (const auto& [row, weight] : sum) value += weight * set.rows[row].value;
+  return value;
+}
+
+/// Own noise of rows, and what they share.
+class NoiseOfRows {
+ public:
+  explicit NoiseOfRows(const ObservationSet& set) : set_(&set), factors_(set.shared.factors().size()) {
+    std::vector<std::size_t> all(set.rows.size());
+    std::iota(all.begin(), all.end(), std::size_t{0});
+    if (factors_ > 0) loads_ = set.shared.loads(all);
+  }
+  [[nodiscard]] NoiseCauses causesOf(const Combination& rows) const {
+    std::map<std::size_t, double> sum;
+    for (const auto& [row, weight] : rows) {
+      sum[factors_ + row] += weight * std::sqrt(set_->shared.ownVariance(row, set_->rows[row].sigma));
+      if (factors_ == 0) continue;
+      for (Loads::InnerIterator it(loads_, static_cast<Eigen::Index>(row)); it; ++it)
+        sum[static_cast<std::size_t>(it.col())] += weight * it.value();
+    }
+    return {sum.begin(), sum.end()};
+  }
+
+ private:
+  using Loads = Eigen::SparseMatrix<double, Eigen::RowMajor>;
+  const ObservationSet* set_;
+  std::size_t factors_;
+  Loads loads_;
+};
+
+double sigmaOf(const NoiseCauses& causes) {
+  double variance = 0.0;
+  for (const auto& [cause, load] : causes) variance += load * load;
+  return std::sqrt(variance);
+}
+
+/// Causes x changes.
+Eigen::SparseMatrix<double> loadsOf(const std::vector<const VerifyPoint*>& points, bool after) {
+  std::map<std::size_t, Eigen::Index> number;
+  std::vector<Eigen::Triplet<double>> loads;
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    for (const auto& [cause, load] : after ? points[k]->after_causes : points[k]->before_causes) {
+      const auto row = number.try_emplace(cause, static_cast<Eigen::Index>(number.size())).first->second;
+      loads.emplace_back(row, static_cast<Eigen::Index>(k), load);
+    }
+  }
+  Eigen::SparseMatrix<double> out(static_cast<Eigen::Index>(number.size()), static_cast<Eigen::Index>(points.size()));
+  out.setFromTriplets(loads.begin(), loads.end());
   return out;
 }
 
@@ -158,30 +250,19 @@ VerifyFigures verifyFigures(const std::vector<const VerifyPoint*>& points, bool 
   VerifyFigures f;
   double squares = 0.0;
   double noise = 0.0;
-  double spread = 0.0;
   const auto n = static_cast<double>(points.size());
-  for (const VerifyPoint* p : points) {
+  Eigen::VectorXd changes(static_cast<Eigen::Index>(points.size()));
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const VerifyPoint* p = points[k];
     const double d = after ? p->after : p->before;
     const double s = after ? p->after_sigma : p->before_sigma;
+    changes[static_cast<Eigen::Index>(k)] = d;
     squares += d * d / n;
     noise += s * s / n;
-    // Neighbours share the first state: counted as if all did, half of the variance is common to a series.
-    spread += (2.0 * std::pow(s, 4) + 4.0 * d * d * s * s) / (n * n);
     if (std::abs(d) <= f.largest) continue;
     f.largest = std::abs(d);
     f.largest_sigma = s;
     f.largest_at = p->point + ", " + p->state;
-  }
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    for (std::size_t j = 0; j < i; ++j) {
-      if (points[i]->point != points[j]->point) continue;
-      const double di = after ? points[i]->after : points[i]->before;
-      const double dj = after ? points[j]->after : points[j]->before;
-      const double si = after ? points[i]->after_sigma : points[i]->before_sigma;
-      const double sj = after ? points[j]->after_sigma : points[j]->before_sigma;
-      const double common = 0.5 * si * sj;
-      spread += 2.0 * (2.0 * common * common + 4.0 * di * dj * common) / (n * n);
-    }
   }
   if (points.size() == 1) {
     // Nothing to average: the value itself, with its uncertainty.
@@ -191,6 +272,13 @@ VerifyFigures verifyFigures(const std::vector<const VerifyPoint*>& points, bool 
   }
   const double left = std::max(0.0, squares - noise);
   f.rms = std::sqrt(left);
+  // C = L'L, so that tr(C^2) is the squared norm of L L': as sparse as causes are shared.
+  const Eigen::SparseMatrix<double> loads = loadsOf(points, after);
+  const Eigen::SparseMatrix<double> crossed = loads * loads.transpose();
+  // d holds the noise as well: d'Cd is larger than that of the changes themselves by tr(C^2) in the mean.
+  const double squared = crossed.squaredNorm();
+  const double along = (loads * changes).squaredNorm();
+  const double spread = std::max(2.0 * squared, 4.0 * along - 2.0 * squared) / (n * n);
   const double u = std::sqrt(std::max(0.0, spread));
   // u of the root; near zero by the distance to the root of the upper end.
   f.rms_sigma = std::sqrt(left + u) - f.rms;
@@ -246,7 +334,10 @@ VerifyResult verifyCompensation(const ObservationSet& before, const ObservationS
   result.request = request;
   const auto first = coursesOf(before);
   const auto second = coursesOf(after);
+  const NoiseOfRows noise_before(before);
+  const NoiseOfRows noise_after(after);
   std::size_t missing = 0;
+  std::size_t other_side = 0;
   std::set<std::string> moved;
   for (const auto& [key, course] : first) {
     const auto other = second.find(key);
@@ -260,17 +351,22 @@ VerifyResult verifyCompensation(const ObservationSet& before, const ObservationS
       moved.insert(key.first);
       continue;
     }
-    const Value& other_zero = other->second.values.at(other->second.states.front());
     // The same plan has the same number of states; names may differ, their order may not.
     const std::size_t states = std::min(course.states.size(), other->second.states.size());
     if (course.states.size() != other->second.states.size()) ++missing;
     for (std::size_t k = 1; k < states; ++k) {
       const Value& a = course.values.at(course.states[k]);
       const Value& b = other->second.values.at(other->second.states[k]);
-      const auto [component, c_deg] = key.second;
-      result.points.push_back({key.first, other->second.states[k], b.position_mm, component, a.value - zero.value,
-                               std::sqrt(a.variance + zero.variance), b.value - other_zero.value,
-                               std::sqrt(b.variance + other_zero.variance), c_deg});
+      const ChangeOfRows change_before = changeOf(before, a, zero);
+      const ChangeOfRows change_after = changeOf(after, b, elsewhere);
+      other_side += change_before.from_another_side || change_after.from_another_side ? 1U : 0U;
+      NoiseCauses before_causes = noise_before.causesOf(change_before.rows);
+      NoiseCauses after_causes = noise_after.causesOf(change_after.rows);
+      const double before_sigma = sigmaOf(before_causes);
+      const double after_sigma = sigmaOf(after_causes);
+      result.points.push_back({key.first, other->second.states[k], b.position_mm, key.second.first,
+                               valueOf(before, change_before.rows), before_sigma, valueOf(after, change_after.rows),
+                               after_sigma, key.second.second, std::move(before_causes), std::move(after_causes)});
     }
   }
   for (const auto& [key, course] : second) missing += first.contains(key) ? 0U : 1U;
@@ -292,6 +388,12 @@ VerifyResult verifyCompensation(const ObservationSet& before, const ObservationS
     result.notes.push_back(fmt::format(
         "{} of points and components {} not measured alike before and after; only what both have is compared.",
         countOf(missing, "series", "series"), missing == 1 ? "is" : "are"));
+  }
+  if (other_side > 0) {
+    result.notes.push_back(fmt::format(
+        "{} of {} {} compared with readings that were approached from another side: the reversal error counts as a "
+        "change in them.",
+        other_side, countOf(result.points.size(), "value"), other_side == 1 ? "is" : "are"));
   }
   rejectSameData(after, result);
   for (int c = 0; c < 6; ++c) {

@@ -50,6 +50,11 @@ struct VerifyComponent {
   VerifyVerdict verdict = VerifyVerdict::NotJudged;
 };
 
+/// Causes of the noise of a change, which are independent of each other: the number of each, and what one standard
+/// deviation of it does to the change (um or urad). Changes that share a cause are correlated by it: the first state of
+/// a series, what all rows of an evaluation are compared with. The squares sum up to the variance of the change.
+using NoiseCauses = std::vector<std::pair<std::size_t, double>>;
+
 /// One compared value: change from the first state, before and after.
 struct VerifyPoint {
   std::string point;
@@ -61,10 +66,12 @@ struct VerifyPoint {
   double after = 0.0;
   double after_sigma = 0.0;
   double c_deg = 0.0;  ///< angle of the table
+  NoiseCauses before_causes, after_causes;
 };
 
-/// rms with the measuring noise taken out, and the largest |value|, of some compared values (um or urad). All changes
-/// of a series share the noise of its first state: half of their variance is counted as common.
+/// rms with the measuring noise taken out, and the largest |value|, of some compared values (um or urad). With C the
+/// covariance of the n changes, m of them without noise, this adds tr(C) / n to the mean square, whose variance is
+/// (2 tr(C^2) + 4 m'C m) / n^2 (of normal noise; Mathai and Provost 1992, Quadratic forms in random variables).
 [[nodiscard]] VerifyFigures verifyFigures(const std::vector<const VerifyPoint*>& points, bool after);
 
 struct VerifyResult {

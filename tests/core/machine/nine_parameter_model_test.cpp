@@ -378,6 +378,39 @@ TEST(NineParameterModel, SaysWhichStateOrPointIsNotThere) {
               HasSubstr("point \"F99\" was not measured in state M1"));
 }
 
+TEST(NineParameterModel, AReversalErrorThatCountsAsAChangeIsSaid) {
+  // Cold from one side, warm from the other but for F3, with a backlash of 12 um.
+  Random random(13);
+  ObservationSet set;
+  addState(set, "M0", eightFiducials(), NineVector::Zero(), std::vector<double>(24, 6.0), 0.3, 0.8, random);
+  addState(set, "M1", eightFiducials(), NineVector::Zero(), std::vector<double>(24, 6.0), 0.3, 0.8, random);
+  for (Observation& o : set.rows) {
+    const bool other = o.state == "M1" && o.point != "F3";
+    o.approach = Eigen::Vector3d::Constant(other ? -1.0 : 1.0);
+    if (other) o.value -= 12.0;
+  }
+  const StateDifferences change = differencesFromReference(set, "M1");
+  EXPECT_EQ(change.rows.size(), 24U);
+  ASSERT_EQ(change.warnings.size(), 1U);
+  EXPECT_THAT(change.warnings[0],
+              HasSubstr("21 of 24 values are compared with readings of M0 that were approached from "
+                        "another side"));
+  // From both sides each has its own; where nobody stated a side, readings are compared as they are.
+  const ObservationSet once = set;
+  for (Observation o : once.rows) {
+    if (o.state != "M0") continue;
+    o.approach.setConstant(-1.0);
+    o.value -= 12.0;
+    set.rows.push_back(o);
+  }
+  const StateDifferences both = differencesFromReference(set, "M1");
+  EXPECT_TRUE(both.warnings.empty());
+  EXPECT_LT(both.value_um.cwiseAbs().maxCoeff(), 5.0);
+  for (Observation& o : set.rows)
+    if (o.state == "M1") o.approach.setZero();
+  EXPECT_TRUE(differencesFromReference(set, "M1").warnings.empty());
+}
+
 TEST(NineParameterModel, APointWithoutReferenceIsLeftOutAndNamed) {
   Random random(12);
   const std::vector<double> constants(24, 0.0);

@@ -55,6 +55,21 @@ TEST(ObservationSection, TwoStatesAreArrowsOverTheTableAndATable) {
   EXPECT_THAT(text, Not(HasSubstr("over time")));
 }
 
+TEST(ObservationSection, AReversalErrorIsNoChange) {
+  ObservationSet both;
+  for (const double side : {1.0, -1.0}) {
+    for (Observation o : observations(2).rows) {
+      o.approach = {side, side, side};
+      o.value += 6.0 * side;
+      both.rows.push_back(o);
+    }
+  }
+  const std::string text = html(both);
+  EXPECT_THAT(text, HasSubstr("F3: 3.0 ± 0.4"));
+  EXPECT_THAT(text, Not(HasSubstr("<td>−9.0")));
+  EXPECT_THAT(text, Not(HasSubstr("<td>−13.0")));
+}
+
 TEST(ObservationSection, EveryAngleOfTheTableHasAMapOfItsOwn) {
   // F1 and F2 at 0 and at 90 degrees, F3 and F4 at 90 degrees only; F1 moves otherwise there.
   ObservationSet set = observations(2);

@@ -88,6 +88,46 @@ TEST(CompensationPlan, OfARejectedModelCarriesTheLackOfFitAndOffersTheRicherOne)
   EXPECT_LT(*richer.rms_after_unseen_um, 0.5 * *nine.rms_after_unseen_um);
 }
 
+TEST(CompensationPlan, RepeatedReadingsOfAPointCountAsTheirMean) {
+  Campaign campaign = campaignOf(0.0, false, 2);
+  ObservationSet& set = campaign.observations.edit();
+  const ObservationSet once = set;
+  Random random(21);
+  double mean_um = 0.0;
+  double zero_um = 0.0;
+  for (int repeat = 0; repeat < 4; ++repeat) {
+    for (const Observation& o : once.rows) {
+      if (repeat > 0) {
+        set.rows.push_back(o);
+        set.rows.back().time_s += 10.0 * repeat;
+        set.rows.back().value += random.normal(0, 2.0);
+      }
+      const double value = repeat > 0 ? set.rows.back().value : o.value;
+      if (o.point == "F1" && o.component == Component::EX) (o.state == "M1" ? mean_um : zero_um) += 0.25 * value;
+    }
+  }
+  const CompensationPlan plan = planOf(campaign, CompensationSource::NineParameters);
+  ASSERT_EQ(plan.points.size(), 12U);
+  EXPECT_NEAR(*plan.points[0].measured_um[0], mean_um - zero_um, 1e-9);
+  // Four readings minus four: each has half of the uncertainty of one.
+  EXPECT_NEAR(plan.points[0].measured_sigma_um[0], std::sqrt(2.0) * 0.3 / 2.0, 1e-9);
+}
+
+TEST(CompensationPlan, ItsGridIsExtrapolatedBeyondTheHullOfWhatWasFitted) {
+  Campaign campaign = campaignOf(0.0, false, 2);
+  // A triangle, and a point that only judges in the corner that it leaves open.
+  for (Observation& o : campaign.observations.edit().rows) {
+    if (o.position_mm.x() / 300.0 + o.position_mm.y() / 130.0 > 1.0) o.use = ObservationUse::Exclude;
+    if (o.point == "F12") o.use = ObservationUse::Holdout;
+  }
+  const CompensationPlan plan = planOf(campaign, CompensationSource::NineParameters);
+  const auto grid = std::find_if(plan.files.begin(), plan.files.end(),
+                                 [](const CompensationFile& f) { return f.name == "compensation_grid.csv"; });
+  ASSERT_NE(grid, plan.files.end());
+  EXPECT_THAT(grid->content, ::testing::ContainsRegex("\n100,43\\.3[0-9]*,0,[^\n]*,0\n"));
+  EXPECT_THAT(grid->content, ::testing::ContainsRegex("\n200,86\\.6[0-9]*,0,[^\n]*,1\n"));
+}
+
 TEST(CompensationPlan, OfAGoodModelIsAsCertainAsItsParameters) {
   const Campaign campaign = campaignOf(0.0, false, 2);
   const CompensationPlan nine = planOf(campaign, CompensationSource::NineParameters);

@@ -40,6 +40,70 @@ Campaign campaignWith(std::vector<double> on) {
   return c;
 }
 
+/// What an evaluation makes of touches: every row is compared with the first cycle, whose noise its sigma holds.
+ObservationSet againstFirst(double deviation, double own, std::uint64_t seed) {
+  ObservationSet set = measured(0.0, own, seed);
+  Random random(1000 + seed);
+  for (int p = 0; p < 8; ++p) {
+    const double first = random.normal(0.0, own);
+    SharedNoise::Factor loads;
+    for (std::size_t i = 0; i < set.rows.size(); ++i) {
+      Observation& o = set.rows[i];
+      if (o.point != "P" + std::to_string(p)) continue;
+      const bool zero = o.state == "M0";
+      o.value = zero ? 0.0 : o.value - 3.0 - first + ((p + o.state[1]) % 2 == 0 ? deviation : -deviation);
+      o.sigma = std::sqrt(2.0) * own;
+      loads.push_back({i, own});
+    }
+    set.shared.addFactor(std::move(loads));
+  }
+  return set;
+}
+
+TEST(Verify, NoiseThatRowsShareIsCountedOnce) {
+  constexpr double true_um = 1.5;
+  constexpr int campaigns = 200;
+  double mean_um = 0.0;
+  double squares = 0.0;
+  for (int seed = 1; seed <= campaigns; ++seed) {
+    const auto s = static_cast<std::uint64_t>(seed);
+    const VerifyResult result = verifyCompensation(againstFirst(20.0, 1.0, s), againstFirst(true_um, 1.0, s + 500), {});
+    const VerifyComponent& ex = result.components.at(0);
+    EXPECT_NEAR(result.points.front().after_sigma, std::sqrt(2.0), 1e-9) << "not twice";
+    mean_um += ex.after.rms / campaigns;
+    squares += std::pow((ex.after.rms - true_um) / ex.after.rms_sigma, 2) / campaigns;
+  }
+  EXPECT_NEAR(mean_um, true_um, 0.1);
+  EXPECT_NEAR(std::sqrt(squares), 1.0, 0.2);
+}
+
+TEST(Verify, AReversalErrorIsNoChange) {
+  // 12 um of backlash. The cold state from one side alone, the others from both, or from the other one alone.
+  const auto from = [](const ObservationSet& set, bool both) {
+    ObservationSet out;
+    for (const Observation& o : set.rows) {
+      for (const double side : {1.0, -1.0}) {
+        if (o.state == "M0" ? side < 0.0 : !both && side > 0.0) continue;
+        out.rows.push_back(o);
+        out.rows.back().approach = {side, 0.0, 0.0};
+        out.rows.back().value += 6.0 * side;
+      }
+    }
+    return out;
+  };
+  const VerifyResult both =
+      verifyCompensation(from(measured(30.0, 0.2, 1), true), from(measured(0.0, 0.2, 2), true), {});
+  EXPECT_LT(both.components.at(0).after.largest, 1.0);
+  EXPECT_TRUE(both.notes.empty());
+  const VerifyResult one =
+      verifyCompensation(from(measured(30.0, 0.2, 1), false), from(measured(0.0, 0.2, 2), false), {});
+  EXPECT_GT(one.components.at(0).after.largest, 10.0);
+  ASSERT_EQ(one.notes.size(), 1U);
+  EXPECT_NE(one.notes[0].find("24 of 24 values are compared with readings that were approached from another side"),
+            std::string::npos)
+      << one.notes[0];
+}
+
 TEST(Verify, PointsAreListedAsPeopleCount) {
   ObservationSet before = measured(30.0, 0.2, 1);
   ObservationSet after = measured(2.0, 0.2, 2);
