@@ -42,10 +42,11 @@ struct DriverScale {
 
 // Steel 11.5 um/(m K), glass scale 8, cast iron 10.5. Turns and bends: a difference of 1 K across a body of height h
 // and length l turns it by alpha l / h and curves it by alpha / h; column 0.4 m thick, beam 1 m x 0.4 m, head 0.5 m x
-// 0.7 m with the tool 0.4 m below and 0.3 m in front of the pivot.
+// 0.7 m with the tool 0.4 m below and 0.3 m in front of the pivot. Signs: a spindle grows towards the table (EZ < 0)
+// and speed pulls its shaft back; a column leans away from its warm side (front: towards +Y, EA < 0; left: towards +X).
 constexpr std::array scales{
-    DriverScale{"spindle.growth.z", "temperature rise of the spindle", "K", 30.0, 1.7},
-    DriverScale{"spindle.centrifugal.z", "square of the spindle speed", "krpm2", 150.0, -0.05},
+    DriverScale{"spindle.growth.z", "temperature rise of the spindle", "K", 30.0, -1.7},
+    DriverScale{"spindle.centrifugal.z", "square of the spindle speed", "krpm2", 150.0, 0.05},
     DriverScale{"spindle.drift", "temperature rise of the spindle", "K", 30.0, 0.3},
     DriverScale{"head.tilt.a", "temperature difference across the head", "K", 5.0, 3.2, About::Given, {-0.75, 2.5, 0}},
     DriverScale{"head.tilt.b", "temperature difference across the head", "K", 5.0, -3.2, About::Given, {0, -2.5, 0}},
@@ -53,7 +54,7 @@ constexpr std::array scales{
                 "temperature difference front minus rear of the column",
                 "K",
                 5.0,
-                28.75,
+                -28.75,
                 About::Given,
                 {-0.35, 0, 0}},
     DriverScale{"column.bending.b", "temperature difference left minus right of the column", "K", 5.0, 28.75},

@@ -146,6 +146,19 @@ TEST(WhatIf, AMoveOfASliderIsAnsweredAtOnce) {
   EXPECT_LT(times_ms[10], 50.0);
 }
 
+/// As the virtual machine, whose bodies know no formula of the catalogue (core/simulation/plant_effects.cpp).
+TEST(WhatIf, TheSignsOfWhatIsHotAreThoseOfItsBodies) {
+  const auto deviation = [](const char* name) {
+    WhatIf what_if(standardMachine());
+    what_if.set(what_if.find(name), 1.0);
+    return Eigen::Vector3d(what_if.answer().points[0].deviation.head<3>());
+  };
+  EXPECT_LT(deviation("spindle.growth.z").z(), 0.0) << "the nose grows out of its rear bearing";
+  EXPECT_GT(deviation("spindle.centrifugal.z").z(), 0.0) << "speed pulls the shaft back";
+  EXPECT_GT(deviation("column.bending.a").y(), 0.0) << "a warm front leans the column back";
+  EXPECT_GT(deviation("column.bending.b").x(), 0.0) << "a warm left side leans it to the right";
+}
+
 TEST(WhatIf, CommandSetsAnswersAndDraws) {
   const testing::TempFolder folder;
   WhatIfRequest request;
@@ -154,7 +167,7 @@ TEST(WhatIf, CommandSetsAnswersAndDraws) {
   const WhatIf what_if = runWhatIf(request);
   const nlohmann::json json = what_if.json();
   EXPECT_EQ(json.at("parameters").size(), 2U);
-  EXPECT_EQ(json.at("parameters")[1].at("gain"), 17.0);
+  EXPECT_EQ(json.at("parameters")[1].at("gain"), -17.0) << "a warm spindle grows towards the table";
   EXPECT_EQ(json.at("part").at("characteristics").size(), 33U);
   EXPECT_EQ(json.dump().find("NaN"), std::string::npos);
   EXPECT_THAT(whatIfText(what_if), HasSubstr("squareness of the square"));
