@@ -57,6 +57,11 @@ void checkUnits(const DiscrepancyInput& input, const std::vector<std::size_t>& r
 
 void warnAboutUndecidable(const DiscrepancyInput& input, const std::vector<Effect>& catalogue,
                           std::vector<std::string>& warnings) {
+  // A machine has a column or a beam; one that states neither may have either.
+  if (!input.machine.column_base_mm && !input.machine.crossbeam && (!input.own || input.own->builtIn()))
+    warnings.emplace_back(
+        "Not to be decided, because machine.json states neither a column nor a crossbeam: column.bending.a, "
+        "column.bending.b, external_heat.a, external_heat.b and crossbeam.sag.z.");
   if (!input.log || input.log->empty()) return;
   std::vector<std::string> ids;
   for (const Effect& effect : catalogue) {

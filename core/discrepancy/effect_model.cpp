@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/base/inside_folder.h"
 #include "core/base/json_reader.h"
@@ -245,6 +246,63 @@ nlohmann::json EffectModel::json() const {
   return out;
 }
 
+namespace {
+
+/// Names in `parameters` that are those of gains, lags, onsets and lengths.
+std::vector<std::string> namesGiven(const JsonNode& parameters) {
+  std::vector<std::string> names;
+  for (const auto& [name, value] : parameters.members()) {
+    for (const char* kind : {"gain_", "tau", "onset", "length"}) {
+      if (!name.starts_with(kind)) continue;
+      names.push_back(name);
+      break;
+    }
+  }
+  return names;
+}
+
+/// Of an effect that was written by hand, without its inputs: the way in which it is driven whose names are those that
+/// are given, the one with the fewest gains that are not; of several the first.
+EffectVariant variantGiven(ModelEffect e, const JsonNode& parameters, const DriverTable& drivers) {
+  const std::vector<std::string> given = namesGiven(parameters);
+  const auto isGiven = [&](const std::string& name) {
+    return std::find(given.begin(), given.end(), name) != given.end();
+  };
+  const EffectVariant* best = nullptr;
+  std::size_t fewest = std::numeric_limits<std::size_t>::max();
+  std::vector<std::string> ways;
+  std::size_t closest = 0;  // how many of the names the way that is told has
+  for (const EffectVariant& variant : e.effect.variants) {
+    e.variant = variant;
+    const std::vector<std::string> gains = e.gainNames(drivers);
+    const std::vector<std::string> lags = parameterNames(variant);
+    std::vector<std::string> all = gains;
+    all.insert(all.end(), lags.begin(), lags.end());
+    const auto known = static_cast<std::size_t>(std::count_if(all.begin(), all.end(), isGiven));
+    if (known >= closest || ways.empty()) {
+      if (known > closest) ways.clear();
+      closest = known;
+      const std::string way = joinedList(all);
+      if (ways.size() < 3 && std::find(ways.begin(), ways.end(), way) == ways.end()) ways.push_back(way);
+    }
+    const auto gains_given = static_cast<std::size_t>(std::count_if(gains.begin(), gains.end(), isGiven));
+    const bool fits = known == given.size() && gains_given > 0 && std::all_of(lags.begin(), lags.end(), isGiven);
+    if (!fits || gains.size() - gains_given >= fewest) continue;
+    fewest = gains.size() - gains_given;
+    best = &variant;
+  }
+  if (best == nullptr) {
+    throw InputError(
+        parameters.place(),
+        fmt::format("the parameters {} are not those of one way in which the signals in log.csv drive {}; allowed: {}.",
+                    given.empty() ? std::string("(none)") : joinedList(given), e.effect.id,
+                    ways.empty() ? std::string("an effect that something in the log drives") : joinedList(ways, "or")));
+  }
+  return *best;
+}
+
+}  // namespace
+
 std::shared_ptr<const EffectModel> EffectModel::read(const std::filesystem::path& file,
                                                      const MachineDescription& machine, const OperatingLog* log,
                                                      const std::vector<std::string>& points, const OwnEffects* own,
@@ -292,26 +350,7 @@ std::shared_ptr<const EffectModel> EffectModel::read(const std::filesystem::path
       if (e.variant.inputs.empty()) inputs->reject("at least one input");
       e.variant.shared_lag = node.booleanOr("shared_lag", false);
     } else {
-      // Written by hand: the first variant whose parameters are all there.
-      bool found = false;
-      for (const EffectVariant& variant : e.effect.variants) {
-        e.variant = variant;
-        found = true;
-        for (const std::string& name : parameterNames(variant)) found = found && parameters.has(name);
-        for (const std::string& name : e.gainNames(*drivers)) found = found && parameters.has(name);
-        if (found) break;
-      }
-      if (!found) {
-        std::vector<std::string> ways;
-        for (const EffectVariant& variant : e.effect.variants) {
-          e.variant = variant;
-          std::vector<std::string> names = e.gainNames(*drivers);
-          for (std::string& name : parameterNames(variant)) names.push_back(std::move(name));
-          if (ways.size() < 3) ways.push_back(joinedList(names));
-        }
-        parameters.reject("the gains and time constants of one way in which the signals in log.csv drive " +
-                          e.effect.id + ", such as " + joinedList(ways, "or"));
-      }
+      e.variant = variantGiven(e, parameters, *drivers);
     }
     const auto gains = e.gainNames(*drivers);
     e.gains.resize(static_cast<Eigen::Index>(gains.size()));
@@ -321,7 +360,9 @@ std::shared_ptr<const EffectModel> EffectModel::read(const std::filesystem::path
       return uncertainty && uncertainty->has(name) ? uncertainty->at(name).nonNegativeNumber() : 0.0;
     };
     for (std::size_t g = 0; g < gains.size(); ++g) {
-      e.gains[static_cast<Eigen::Index>(g)] = parameters.at(gains[g]).number();
+      // One beside others that is not written is zero: a constant, the part of another input.
+      const auto given = parameters.find(gains[g]);
+      e.gains[static_cast<Eigen::Index>(g)] = given ? given->number() : 0.0;
       e.gain_uncertainty[static_cast<Eigen::Index>(g)] = uncertaintyOf(gains[g]);
     }
     for (const std::string& name : parameterNames(e.variant)) {

@@ -847,7 +847,10 @@ EffectPosterior PosteriorSearch::run(const JobContext& job, const ModelTerm* off
       for (const Alternative& a : slots[t].others) {
         if (a.rejected) continue;
         double lead = a.evidence - best.evidence - 1e-3;
-        if (a.contained && a.evidence > unrelated) lead += priors_.wider_lead;
+        if (a.contained && a.evidence > unrelated) {
+          // An effect of the user's pays less for being chosen than one of the catalogue: that is no evidence for it.
+          lead += priors_.wider_lead + std::max(0.0, priceOf(a.joint) - priceOf(best.fit));
+        }
         if (a.container) lead -= priors_.wider_lead;
         if (lead < most_lead) continue;
         most_lead = lead;

@@ -391,8 +391,10 @@ GapFigures gapFigures(const std::vector<DiscrepancyReportRow>& rows, bool held_o
   };
   const double none = std::nan("");
   GapFigures figures{true, none, none, none, none};
+  // Without any such row there is none of its values, in the unit of the others.
+  const bool any = std::any_of(rows.begin(), rows.end(), counts);
   for (const DiscrepancyReportRow& row : rows) {
-    if (counts(row) && !isRotation(row.component)) figures.rotations = false;
+    if ((counts(row) || !any) && !isRotation(row.component)) figures.rotations = false;
   }
   std::map<std::pair<std::string, Component>, Course> courses;
   for (const DiscrepancyReportRow& row : rows) {

@@ -63,6 +63,7 @@ SensitivityTable::SensitivityTable(const SimulatorFile& file, BasePrediction bas
                       row.time_s, name, row.point, before->second));
     }
     before->second = row.time_s;
+    moved_[name].emplace(row.point, row.component);
     rows[name].push_back(std::move(row));
   }
   for (const SimulatorParameter& p : parameters_) {
@@ -84,7 +85,12 @@ std::shared_ptr<const SensitivityTable::Matched> SensitivityTable::matchedTo(con
   out.base = base_(at);
   SPINDRIFT_ASSERT(out.base.size() == at.rows.size(), "a base prediction for every observation");
   for (const auto& [name, table] : sensitivity_) {
-    out.sensitivity[name] = matchSimulation(table, at, {}, file_.filename().string()).predicted;
+    std::vector<double>& sensitivity = out.sensitivity[name];
+    sensitivity = matchSimulation(table, at, {}, file_.filename().string()).predicted;
+    for (std::size_t i = 0; i < sensitivity.size(); ++i) {
+      const Observation& o = at.rows[i];
+      if (!std::isfinite(sensitivity[i]) && !moved_.at(name).contains({o.point, o.component})) sensitivity[i] = 0.0;
+    }
   }
   matched_ = std::make_shared<const Matched>(std::move(out));
   return matched_;

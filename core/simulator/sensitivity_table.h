@@ -13,7 +13,9 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/machine/simulation_table.h"
@@ -51,6 +53,8 @@ class SensitivityTable final : public Simulator {
   BasePrediction base_;
   ParameterValues table_values_;
   std::map<std::string, SimulationTable> sensitivity_;
+  /// What has rows in the table, by parameter: nothing of a component of a point means that it does not move it.
+  std::map<std::string, std::set<std::pair<std::string, Component>>> moved_;
   mutable std::mutex mutex_;
   mutable std::shared_ptr<const Matched> matched_;
 };

@@ -34,16 +34,16 @@ void addBendingShape(const MachineDescription& machine, int axis, Effect& effect
 namespace effect_family {
 
 void column(const CatalogueContext& context, std::vector<Effect>& out) {
-  if (!context.machine->column_base_mm) return;
   const DriverTable& drivers = *context.drivers;
-  const double base = *context.machine->column_base_mm;
+  // Where it is not stated its height is free: what a shifted one adds is the constant that belongs to the growth.
+  const double base = context.machine->column_base_mm.value_or(0.0);
   const auto room = drivers.room();
   const auto column = drivers.temperatures({SensorRole::ColumnFront, SensorRole::ColumnRear, SensorRole::ColumnLeft,
                                             SensorRole::ColumnRight, SensorRole::Column});
   std::vector<std::string> growth_drivers = column;
   for (const std::string& name : drivers.spindleHeat()) growth_drivers.push_back(name);
   for (const std::string& name : room) growth_drivers.push_back(name);
-  for (int axis = 0; axis < 2; ++axis) {
+  for (int axis = 0; axis < 2 && context.machine->column_base_mm; ++axis) {
     Effect bending;
     bending.id = axis == 0 ? "column.bending.a" : "column.bending.b";
     bending.title = axis == 0 ? "bending of the column towards Y" : "bending of the column towards X";

@@ -97,6 +97,19 @@ TEST(Catalogue, WhichEffectHoldsWhichIsComputed) {
   }
 }
 
+/// EFFECTS.md: an origin that machine.json does not state is free; what bends needs to know that there is a column.
+TEST(Catalogue, AColumnWhoseBaseIsNotStatedGrowsFromAFreeHeight) {
+  const std::string json = R"({"format":"spindrift-machine","version":1,"name":"m","chain":"V [w-X'-Y'-b-Z-t]",
+      "axes":[{"name":"X","travel_mm":[0,500]},{"name":"Y","travel_mm":[0,400]},{"name":"Z","travel_mm":[0,300]}]})";
+  const auto effects = effectsOfMachine(MachineDescription::parse(JsonNode::parse(json, "machine.json"), "m"), {"P1"});
+  const auto has = [&](const char* id) {
+    return std::any_of(effects.begin(), effects.end(), [&](const Effect& e) { return e.id == id; });
+  };
+  EXPECT_TRUE(has("column.expansion.z"));
+  for (const char* id : {"column.bending.a", "column.bending.b", "external_heat.a", "crossbeam.sag.z"})
+    EXPECT_FALSE(has(id)) << id;
+}
+
 TEST(Catalogue, AScrewWhoseBearingIsNotKnownHoldsTheUniformOneInTheOtherOne) {
   const auto screw = [](const char* bearing) {
     const std::string json = R"({"format":"spindrift-machine","version":1,"name":"m","chain":"V [w-X'-Y'-b-Z-t]",

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/discrepancy/effect_model.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -176,6 +177,36 @@ TEST(EffectModel, SaysWhichParametersItNeeds) {
   EXPECT_EQ(refusal(R"({"gain_um_per_K":1.0,"tau_s":600})"), "");
   EXPECT_NE(refusal(R"({"gain_um_per_K":1.0,"tau":600})").find("gain_um_per_K and tau_s"), std::string::npos);
   EXPECT_NE(refusal(R"({"gain_um_per_K":1.0,"tau_s":-5})").find("tau_s"), std::string::npos);
+}
+
+/// Written by hand, without inputs: all names that are given count, and nothing that is given is lost.
+TEST(EffectModel, ParametersSayInWhichWayAnEffectIsDriven) {
+  const testing::TempFolder folder;
+  const MachineDescription machine = everyMachine();
+  const OperatingLog log = everyLog();
+  const auto file = folder.path() / "model.json";
+  const auto read = [&](const std::string& id, const std::string& parameters) {
+    std::ofstream(file) << fmt::format(
+        R"({{"format":"spindrift-error-model","version":1,"effects":[{{"id":"{}","parameters":{}}}]}})", id,
+        parameters);
+    return EffectModel::read(file, machine, &log, {})->effects().front();
+  };
+  const ModelEffect both =
+      read("ball_screw.expansion.z",
+           R"({"gain_um_per_m_per_m_per_min":5,"tau_s":3000,"gain_um_per_m_per_K":4,"tau_2_s":1800})");
+  ASSERT_EQ(both.variant.inputs.size(), 2U);
+  EXPECT_EQ(both.gains[0], 5.0);
+  EXPECT_EQ(both.gains[1], 4.0);
+  EXPECT_EQ(both.parameters[1], 1800.0);
+  EXPECT_EQ(read("ball_screw.expansion.z", R"({"gain_um_per_m_per_m_per_min":5,"tau_s":3000})").variant.inputs.size(),
+            1U);
+  // What is not written of a gain is zero: here the constant that a shifted origin adds.
+  const ModelEffect turn = read("squareness.drift.c0y", R"({"gain_urad_per_K":3,"tau_s":1800})");
+  EXPECT_EQ(turn.gains[0], 3.0);
+  EXPECT_EQ(turn.gains.tail(turn.gains.size() - 1).norm(), 0.0);
+  const std::string said = testing::refusal(
+      [&] { (void)read("ball_screw.expansion.z", R"({"gain_um_per_m_per_m_per_min":5,"tau_s":3000,"tau_9_s":1})"); });
+  EXPECT_NE(said.find("tau_9_s"), std::string::npos) << said;
 }
 
 TEST(EffectModel, RefusesADriverThatTheLogDoesNotHold) {

@@ -110,6 +110,9 @@ TEST(DiscrepancyReport, GapSaysPeakToPeakAndFitOfFittedAndHeldOutRows) {
   const GapFigures held_out = gapFigures(data().rows, true);
   EXPECT_EQ(held_out.p2p_before, 0.0);
   EXPECT_TRUE(std::isnan(held_out.fit_before_percent));
+  std::vector<DiscrepancyReportRow> none_held_out = data().rows;
+  for (DiscrepancyReportRow& row : none_held_out) row.held_out = false;
+  EXPECT_FALSE(gapFigures(none_held_out, true).rotations) << "in the unit of the rows that there are";
   const std::string html = htmlOf(discrepancyDocument("c", data(), std::nullopt));
   EXPECT_THAT(html, HasSubstr("largest peak-to-peak of one series, rows fitted"));
   EXPECT_THAT(html, HasSubstr("fit, rows fitted"));
