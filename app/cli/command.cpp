@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <csignal>
 #include <cstdio>
 #include <filesystem>
@@ -13,6 +14,7 @@
 #include <mutex>
 #include <regex>
 #include <stop_token>
+#include <string_view>
 
 #include "core/base/atomic_file.h"
 #include "core/base/error.h"
@@ -58,21 +60,52 @@ void onInterrupt(int) {
   std::signal(SIGINT, SIG_DFL);
 }
 
-/// A campaign is written once: no result may go into the folder that a command reads.
-void refuseResultsInCampaign(const CLI::App& command) {
-  const CLI::Option* campaign = command.get_option_no_throw("CAMPAIGN");
-  if (campaign == nullptr || campaign->empty()) return;
-  const std::filesystem::path folder = std::filesystem::weakly_canonical(campaign->results().front());
-  for (const char* name :
-       {"--json", "--out", "--csv", "--svg", "--png", "--pdf", "--html", "--prediction", "--model-out"}) {
+bool isCampaign(const std::filesystem::path& folder) {
+  std::error_code unreadable;
+  return std::filesystem::exists(folder / "campaign.json", unreadable);
+}
+
+/// A measurement is written once: no result may replace what a command reads, nor go into the folder of a campaign.
+void refuseToWriteOverMeasurements(const CLI::App& command) {
+  constexpr std::array results{"--json", "--out",  "--csv",        "--svg",       "--png",
+                               "--pdf",  "--html", "--prediction", "--model-out", "--overlay"};
+  std::vector<std::filesystem::path> inputs;
+  for (const CLI::Option* option : command.get_options()) {
+    if (std::any_of(results.begin(), results.end(), [&](const char* name) { return option->check_name(name); }))
+      continue;
+    for (const std::string& text : option->results()) {
+      std::error_code none;
+      if (!text.empty() && std::filesystem::exists(text, none))
+        inputs.push_back(std::filesystem::weakly_canonical(text));
+    }
+  }
+  for (const char* name : results) {
     const CLI::Option* target = command.get_option_no_throw(name);
-    if (target == nullptr || target->empty() || target->results().front() == "-") continue;
-    const std::filesystem::path file = std::filesystem::weakly_canonical(target->results().front());
-    const auto [end, ignored] = std::mismatch(folder.begin(), folder.end(), file.begin(), file.end());
-    if (end == folder.end()) {
-      throw InputError(
-          {target->results().front(), ""},
-          fmt::format("{} lies in the campaign folder, which is never altered; allowed: a file elsewhere.", name));
+    if (target == nullptr || target->empty()) continue;
+    const std::string& text = target->results().front();
+    if (text == "-") {
+      if (std::string_view(name) == "--json") continue;
+      throw InputError({text, ""}, fmt::format("{} writes no standard output; allowed: a file.", name));
+    }
+    const std::filesystem::path file = std::filesystem::weakly_canonical(text);
+    for (const std::filesystem::path& input : inputs) {
+      if (file == input && !std::filesystem::is_directory(input))
+        throw InputError({text, ""},
+                         fmt::format("{} would be written over what the command reads; allowed: another file.", name));
+      const auto [end, ignored] = std::mismatch(input.begin(), input.end(), file.begin(), file.end());
+      if (isCampaign(input) && end == input.end())
+        throw InputError({text, ""}, fmt::format("{} lies in the campaign folder, which is never altered; allowed: a "
+                                                 "file elsewhere.",
+                                                 name));
+    }
+    if (std::string_view(name) == "--out") continue;  // may be what a recording or a simulation makes
+    for (std::filesystem::path folder = file.parent_path(); folder != folder.parent_path();
+         folder = folder.parent_path()) {
+      if (isCampaign(folder))
+        throw InputError({text, ""},
+                         fmt::format("{} lies in the campaign folder {}, which is never altered; allowed: a "
+                                     "file elsewhere.",
+                                     name, folder.string()));
     }
   }
 }
@@ -227,7 +260,7 @@ CLI::App* addCommand(CLI::App& parent, CommandLine& line, const std::string& nam
       ->type_name("FILE");
   command->callback([&line, command, run = std::move(run)] {
     line.selected = [command, run](JobContext& job) {
-      refuseResultsInCampaign(*command);
+      refuseToWriteOverMeasurements(*command);
       return run(job);
     };
   });

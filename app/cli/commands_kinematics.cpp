@@ -101,7 +101,15 @@ CommandResult runFit(const FitArguments& a, JobContext& job) {
   const Campaign campaign = Campaign::read(a.campaign);
   std::vector<std::string> notes;
   const ObservationSet observations = observationsOf(campaign, a.observations, {}, job, &notes);
-  const NineParameterFit fit = fitNineParameters(observations, fitOptions(a));
+  const NineParameterFit fit = [&] {
+    try {
+      return fitNineParameters(observations, fitOptions(a));
+    } catch (const InputError& e) {
+      // What was left out may be why.
+      if (notes.empty()) throw;
+      throw InputError(fmt::format("{} {}", e.what(), notes.back()));
+    }
+  }();
   const TableOrderChoice choice = chooseTableOrder(fit);
   return noted({toJson(fit, choice), summaryOf(fit, choice), fit.status == FitStatus::Converged ? Done : NotGoodEnough},
                notes);

@@ -35,8 +35,12 @@ nlohmann::json registrationJson(const RegistrationResult& result) {
   for (int r = 0; r < 4; ++r) matrix.push_back({m(r, 0), m(r, 1), m(r, 2), m(r, 3)});
   out["target_from_source"] = matrix;
   const Eigen::Vector3d t = um_per_mm * result.translation_mm, w = urad_per_rad * result.rotation_rad;
-  out["translation_um"] = {t.x(), t.y(), t.z()};
-  out["rotation_urad"] = {w.x(), w.y(), w.z()};
+  // A free direction has no value.
+  const auto known = [&](double value, int i) {
+    return jsonNumber(std::isfinite(result.covariance(i, i)) ? value : std::nan(""));
+  };
+  out["translation_um"] = {known(t.x(), 0), known(t.y(), 1), known(t.z(), 2)};
+  out["rotation_urad"] = {known(w.x(), 3), known(w.y(), 4), known(w.z(), 5)};
   out["centroid_mm"] = {result.centroid_mm.x(), result.centroid_mm.y(), result.centroid_mm.z()};
   nlohmann::json covariance = nlohmann::json::array();
   nlohmann::json sigma = nlohmann::json::array();

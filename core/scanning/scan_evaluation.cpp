@@ -541,6 +541,22 @@ void warnChangesOfShape(ScanEvaluation& evaluation) {
       most->capture.cycle, sigma.head<3>().maxCoeff()));
 }
 
+/// Keys of the machine file that the errors of the axis depend on, and what holds without them.
+void tellUnstated(const MachineDescription& machine, std::vector<EvaluationWarning>& warnings) {
+  if (!machine.source.is_object() || !machine.source.contains("profiler")) return;
+  const nlohmann::json& profiler = machine.source.at("profiler");
+  std::vector<std::string> zero;
+  for (const char* key : {"lever_mm", "lift_mm"})
+    if (!profiler.contains(key)) zero.emplace_back(key);
+  if (!zero.empty())
+    warnings.push_back(fmt::format(
+        "machine.json states no {} of the profiler: 0 mm is taken, and errors of the axis that tilt with the slide are "
+        "those at the tool frame, not at the origin of the slide.",
+        joinedList(zero, "or")));
+  if (!profiler.contains("scan_model"))
+    warnings.push_back(std::string("machine.json states no scan_model of the profiler: rigid is taken."));
+}
+
 }  // namespace
 
 double ScanResult::standardUncertaintyAtArtefact(int i) const {
@@ -563,6 +579,7 @@ ScanEvaluation evaluateScanCampaign(const Campaign& campaign, const std::string&
   job.report(0.0, "calibrating the profiler");
   evaluation.mounting.lift_mm = profiler.lift_mm;
   evaluation.mounting.lever_mm = frame.machine_from_scan.transpose() * profiler.lever_mm;
+  tellUnstated(campaign.machine, evaluation.warnings);
   evaluation.mounting.calibration =
       calibrationOf(campaign, profiler, evaluation.scan_model, frame, evaluation.warnings);
 

@@ -2,10 +2,12 @@
 // simulate, fit, heatmap, discrepancy and report on a campaign of the virtual machine.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <memory>
 
+#include "core/base/atomic_file.h"
 #include "tests/app/cli/child_process.h"
 #include "tests/support/source_folder.h"
 #include "tests/support/temp_folder.h"
@@ -287,6 +289,26 @@ TEST_F(Simulated, NoResultGoesIntoTheCampaign) {
                                                                  {"evaluate", campaign(), "--out", there}}) {
     expectBadInput(words, {there, "never altered"});
   }
+  EXPECT_EQ(contentOf(campaign()), before());
+}
+
+TEST_F(Simulated, NoResultReplacesWhatACommandReads) {
+  const std::string log = campaign() + "/log.csv";
+  const std::vector<std::string> identify{"thermal", "identify", log,      "--output", "EZ_um",
+                                          "--train", "0:1000",   "--test", "1000:2000"};
+  for (const auto& [option, file, sentence] : std::vector<std::array<std::string, 3>>{
+           {"--prediction", log, "written over"}, {"--model-out", campaign() + "/model.json", "never altered"}}) {
+    std::vector<std::string> words = identify;
+    words.insert(words.end(), {option, file});
+    expectBadInput(words, {file, sentence});
+  }
+  const TempFolder folder;
+  const std::string own = (folder.path() / "own.csv").string();
+  std::filesystem::copy_file(campaign() + "/observations.csv", own);
+  const std::string there = readFile(own);
+  expectBadInput({"fit", campaign(), "--observations", own, "--json", own}, {own, "written over"});
+  expectBadInput({"heatmap", campaign(), "--csv", "-"}, {"--csv", "standard output"});
+  EXPECT_EQ(readFile(own), there);
   EXPECT_EQ(contentOf(campaign()), before());
 }
 
