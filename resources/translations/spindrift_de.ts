@@ -6035,10 +6035,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Die Verstärkungsnachführung verschlechterte die größten Abweichungen: das Verhältnis gemessen / simuliert ist sinnlos, wo die Simulation nahe null ist; --update kalman verwenden oder die Verstärkung begrenzen.</translation>
     </message>
     <message>
-        <source>the gains and time constants of one way in which the signals in log.csv drive {}</source>
-        <translation>die Verstärkungen und Zeitkonstanten einer Art, in der die Signale in log.csv {} antreiben</translation>
-    </message>
-    <message>
         <source>the gains could not be determined; give fewer inputs or a longer training range.</source>
         <translation>die Verstärkungen waren nicht bestimmbar; weniger Eingänge oder einen längeren Trainingsbereich angeben.</translation>
     </message>
@@ -8077,10 +8073,6 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>{}, line {}: {{{{{}}}}} has no finite value with {}.</source>
         <translation>{}, Zeile {}: {{{{{}}}}} hat keinen endlichen Wert mit {}.</translation>
-    </message>
-    <message>
-        <source>{}, such as {}</source>
-        <translation>{}, etwa {}</translation>
     </message>
     <message>
         <source>{}, touch {}</source>
@@ -11919,6 +11911,54 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>The range of the test</source>
         <translation>Der Bereich der Prüfung</translation>
+    </message>
+    <message>
+        <source>Evaluating the test of ISO 230-3</source>
+        <translation>Die Prüfung nach ISO 230-3 wird ausgewertet</translation>
+    </message>
+    <message>
+        <source>the test of ISO 230-3</source>
+        <translation>die Prüfung nach ISO 230-3</translation>
+    </message>
+    <message>
+        <source>Not to be decided, because machine.json states neither a column nor a crossbeam: column.bending.a, column.bending.b, external_heat.a, external_heat.b and crossbeam.sag.z.</source>
+        <translation>Nicht zu entscheiden, weil machine.json weder einen Ständer noch einen Querbalken nennt: column.bending.a, column.bending.b, external_heat.a, external_heat.b und crossbeam.sag.z.</translation>
+    </message>
+    <message>
+        <source>an effect that something in the log drives</source>
+        <translation>ein Effekt, den etwas in der Aufzeichnung antreibt</translation>
+    </message>
+    <message>
+        <source>machine.json states no hole_diameter_mm of {}: the diameter of each hole is taken from its touches.</source>
+        <translation>machine.json nennt kein hole_diameter_mm von {}: Der Durchmesser jeder Bohrung wird aus ihren Antastungen genommen.</translation>
+    </message>
+    <message>
+        <source>machine.json states no scan_model of the profiler: rigid is taken.</source>
+        <translation>machine.json nennt kein scan_model des Profilsensors: rigid wird angenommen.</translation>
+    </message>
+    <message>
+        <source>machine.json states no {} of the profiler: 0 mm is taken, and errors of the axis that tilt with the slide are those at the tool frame, not at the origin of the slide.</source>
+        <translation>machine.json nennt kein {} des Profilsensors: 0 mm wird angenommen, und Abweichungen der Achse, die mit dem Schlitten kippen, gelten im Werkzeugsystem, nicht im Ursprung des Schlittens.</translation>
+    </message>
+    <message>
+        <source>the parameters {} are not those of one way in which the signals in log.csv drive {}; allowed: {}.</source>
+        <translation>die Parameter {} sind nicht die einer Art, auf die die Signale in log.csv {} antreiben; zulässig: {}.</translation>
+    </message>
+    <message>
+        <source>is a number too large for any computer; allowed: finite numbers.</source>
+        <translation>ist eine Zahl, die für jeden Rechner zu groß ist; zulässig: endliche Zahlen.</translation>
+    </message>
+    <message>
+        <source>Range in 60 min</source>
+        <translation>Spanne in 60 min</translation>
+    </message>
+    <message>
+        <source>{} of {} {} compared with readings of {} that were approached from another side: the reversal error counts as a change in them.</source>
+        <translation>{} von {} {} mit Messwerten von {} verglichen, die von einer anderen Seite angefahren wurden: Die Umkehrspanne zählt in ihnen als Änderung.</translation>
+    </message>
+    <message>
+        <source>{} of {} {} compared with readings that were approached from another side: the reversal error counts as a change in them.</source>
+        <translation>{} von {} {} mit Messwerten verglichen, die von einer anderen Seite angefahren wurden: Die Umkehrspanne zählt in ihnen als Änderung.</translation>
     </message>
 </context>
 <context>
@@ -20481,10 +20521,6 @@ ihrem Ordner und führen nicht hinaus.
         <translation>Spanne %1</translation>
     </message>
     <message>
-        <source>%1 %2/K</source>
-        <translation>%1 %2/K</translation>
-    </message>
-    <message>
         <source>slope %1</source>
         <translation>Steigung %1</translation>
     </message>
@@ -25584,6 +25620,10 @@ ihrem Ordner und führen nicht hinaus.
         <source>choose the test of ISO 230-3</source>
         <translation>Prüfung nach ISO 230-3 wählen</translation>
     </message>
+    <message>
+        <source>Reading the test of ISO 230-3</source>
+        <translation>Die Prüfung nach ISO 230-3 wird gelesen</translation>
+    </message>
 </context>
 <context>
     <name>spindrift::gui::TouchCapturePage</name>
@@ -25766,10 +25806,6 @@ ihrem Ordner und führen nicht hinaus.
     <message>
         <source>Reading the touches</source>
         <translation>Antastungen werden gelesen</translation>
-    </message>
-    <message>
-        <source>The campaign lists no touches yet.</source>
-        <translation>Die Kampagne führt noch keine Antastungen auf.</translation>
     </message>
     <message>
         <source>Changed since: %1. Check the touches again.</source>
@@ -26292,6 +26328,21 @@ ihrem Ordner und führen nicht hinaus.
     <message>
         <source>Expansion of the artefact</source>
         <translation>Ausdehnung des Prüfkörpers</translation>
+    </message>
+</context>
+<context>
+    <name>spindrift::gui::TouchResults</name>
+    <message>
+        <source>The list of touches is being read.</source>
+        <translation>Die Liste der Antastungen wird gelesen.</translation>
+    </message>
+    <message>
+        <source>The campaign lists no touches yet.</source>
+        <translation>Die Kampagne führt noch keine Antastungen auf.</translation>
+    </message>
+    <message>
+        <source>Reading the list of touches</source>
+        <translation>Die Liste der Antastungen wird gelesen</translation>
     </message>
 </context>
 <context>

@@ -33,6 +33,7 @@ std::span<const char* const> spindrift::gui::core_formats::base() noexcept {
     QT_TRANSLATE_NOOP("core", "column {}"),
     QT_TRANSLATE_NOOP("core", "gives more bytes than are allowed; allowed: at most {}."),
     QT_TRANSLATE_NOOP("core", "holds lists or objects more than {} deep in each other; allowed: at most that."),
+    QT_TRANSLATE_NOOP("core", "is a number too large for any computer; allowed: finite numbers."),
     QT_TRANSLATE_NOOP("core", "is an absolute path"),
     QT_TRANSLATE_NOOP("core", "is empty; allowed: CSV with one header row."),
     QT_TRANSLATE_NOOP("core", "is not a file name"),

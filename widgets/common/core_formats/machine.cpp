@@ -200,6 +200,7 @@ std::span<const char* const> spindrift::gui::core_formats::machine() noexcept {
     QT_TRANSLATE_NOOP("core", "{} of the square"),
     QT_TRANSLATE_NOOP("core", "{} of {}"),
     QT_TRANSLATE_NOOP("core", "{} of {} points lie far outside the travel of this machine ({}): are these its observations, in mm?"),
+    QT_TRANSLATE_NOOP("core", "{} of {} {} compared with readings of {} that were approached from another side: the reversal error counts as a change in them."),
     QT_TRANSLATE_NOOP("core", "{} positions are not allowed; allowed: 2 to {}."),
     QT_TRANSLATE_NOOP("core", "{} positions are not enough; allowed: 3 or more for the nine parameters."),
     QT_TRANSLATE_NOOP("core", "{} positions cannot be chosen from {} candidates."),

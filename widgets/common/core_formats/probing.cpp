@@ -131,6 +131,7 @@ std::span<const char* const> spindrift::gui::core_formats::probing() noexcept {
     QT_TRANSLATE_NOOP("core", "its time {} s does not come after {} s of the touch before"),
     QT_TRANSLATE_NOOP("core", "lacks one of {x}, {y}, {z}; allowed: a pattern with all three."),
     QT_TRANSLATE_NOOP("core", "lies along {}, but the chain \"{}\" has no such axis."),
+    QT_TRANSLATE_NOOP("core", "machine.json states no hole_diameter_mm of {}: the diameter of each hole is taken from its touches."),
     QT_TRANSLATE_NOOP("core", "needs \"hole_diameter_mm\" to plan touches."),
     QT_TRANSLATE_NOOP("core", "needs a rotary axis that turns the workpiece across the bar, but the chain \"{}\" has none; allowed: for example \"V [w-C'-X'-b-Y-Z-(C1)-t]\"."),
     QT_TRANSLATE_NOOP("core", "needs a stylus; allowed: \"styli\" in the machine file."),

@@ -140,6 +140,8 @@ std::span<const char* const> spindrift::gui::core_formats::scanning() noexcept {
     QT_TRANSLATE_NOOP("core", "lists no scans."),
     QT_TRANSLATE_NOOP("core", "machine.json has no point for {}: the position is taken from the scan, 0 across {}."),
     QT_TRANSLATE_NOOP("core", "machine.json names no calibration_cloud with its calibration_circle"),
+    QT_TRANSLATE_NOOP("core", "machine.json states no scan_model of the profiler: rigid is taken."),
+    QT_TRANSLATE_NOOP("core", "machine.json states no {} of the profiler: 0 mm is taken, and errors of the axis that tilt with the slide are those at the tool frame, not at the origin of the slide."),
     QT_TRANSLATE_NOOP("core", "mirrored in x"),
     QT_TRANSLATE_NOOP("core", "mirrored in y"),
     QT_TRANSLATE_NOOP("core", "one direction"),

@@ -40,8 +40,6 @@ std::span<const char* const> spindrift::gui::core_formats::words() noexcept {
     QT_TRANSLATE_NOOP("core", "Effects that the search knows"),
     QT_TRANSLATE_NOOP("core", "Error parameters"),
     QT_TRANSLATE_NOOP("core", "Events"),
-    QT_TRANSLATE_NOOP("core", "ISO 230-3: environmental temperature variation error"),
-    QT_TRANSLATE_NOOP("core", "ISO 230-3: thermal distortion caused by the rotating spindle"),
     QT_TRANSLATE_NOOP("core", "Laser profiler"),
     QT_TRANSLATE_NOOP("core", "Machine"),
     QT_TRANSLATE_NOOP("core", "Measured with: {}"),
