@@ -135,6 +135,8 @@ TEST_P(RecordingsTest, SaysAndLooksTheSame) {
   int looks = 0;
   Replay replay(*window_, recording, [&](const QString& look, QWidget& shown) {
     ++looks;
+    QTest::qWait(200);  // what a page makes when there is time is there
+    ASSERT_TRUE(waitForJobs(*window_, 30));
     const QString kept = kept_folder + name + QLatin1Char('/') + look;
     compare(kept + QStringLiteral(".txt"), said(shown), renew);
     for (const ThemeKind kind : {ThemeKind::Dark, ThemeKind::Light}) {
