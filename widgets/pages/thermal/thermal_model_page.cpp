@@ -295,7 +295,7 @@ void ThermalModelPage::showStandardTest() {
   iso_->set(series_, iso_options_.now());
   if (tabs_->currentWidget() != iso_) return;
   const ShownTask test = shown("iso-230-3", tr("Reading the test of ISO 230-3"));
-  iso_->show(test.as<StandardTest>());
+  iso_->show(test.state.current ? test.as<StandardTest>() : nullptr);  // not numbers of another choice beside this one
   if (test.reading || test.state.current) return;
   // Once for what is chosen: a test that was cancelled is not begun again by what shows it.
   std::string asked = inputsKey() + "|" + optionsJson(iso_options_.now()).dump();
