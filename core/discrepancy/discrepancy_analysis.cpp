@@ -20,6 +20,7 @@
 #include "core/discrepancy/own_effects.h"
 #include "core/discrepancy/simulation_clock.h"
 #include "core/discrepancy/simulation_parts.h"
+#include "core/math/distributions.h"
 
 namespace spindrift {
 namespace {
@@ -89,7 +90,7 @@ bool differs(const NoiseModel& a, const NoiseModel& b) {
   for (std::size_t c = 0; c < a.component.size(); ++c) {
     const ComponentNoise& x = a.component[c];
     const ComponentNoise& y = b.component[c];
-    if ((x.tail_dof > 0.0) != (y.tail_dof > 0.0)) return true;
+    if ((x.tail_dof > 0.0) != (y.tail_dof > 0.0) || (x.gross_part > 0.0) != (y.gross_part > 0.0)) return true;
     if (ratio(x.scale, y.scale) > 0.1 || std::abs(x.correlated_part - y.correlated_part) > 0.2 ||
         std::abs(x.drift_part - y.drift_part) > 0.2)
       return true;
@@ -482,9 +483,19 @@ double devianceOfTails(const ResidualProblem& problem) {
   if (problem.noise.weight.size() == 0) return 0.0;
   double sum = 0.0;
   for (Index u = 0; u < problem.size(); ++u) {
-    const double dof = problem.noise.of(problem.component[static_cast<std::size_t>(u)]).tail_dof;
-    if (!(dof > 0.0)) continue;
+    const ComponentNoise& n = problem.noise.of(problem.component[static_cast<std::size_t>(u)]);
+    const double dof = n.tail_dof;
     const double weight = problem.noise.weight[u];
+    if (n.gross_part > 0.0) {
+      // The density of normal noise at the reading, from how probable it is that it is none of the gross errors.
+      const double gross = n.gross_density * n.scale;
+      const double inside = std::min(normalDensity(0.0), gross * weight / ((1.0 - weight) * (1.0 - n.gross_part)));
+      const double square = 2.0 * std::log(normalDensity(0.0) / inside);
+      sum += -2.0 * std::log((1.0 - n.gross_part) * inside + gross) -
+             (weight * square - std::log(weight) + std::log(2.0 * std::numbers::pi));
+      continue;
+    }
+    if (!(dof > 0.0)) continue;
     const double square = std::max(0.0, (dof + 1.0) / weight - dof);  // of the reading over its scale
     const double student = (dof + 1.0) * std::log1p(square / dof) + std::log(dof * std::numbers::pi) -
                            2.0 * (std::lgamma(0.5 * (dof + 1.0)) - std::lgamma(0.5 * dof));

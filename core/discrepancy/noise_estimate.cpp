@@ -11,6 +11,7 @@
 
 #include "core/discrepancy/bordered_gram.h"
 #include "core/discrepancy/residual_problem.h"
+#include "core/math/distributions.h"
 #include "core/math/statistics.h"
 
 namespace spindrift {
@@ -52,6 +53,14 @@ constexpr double shift_step = 0.45;
 /// 2 ln of the odds against shifts that noise does not make.
 constexpr double impossible = 1e3;
 
+/// Of the readings of one component, those that lie far from the others: from this part on they are no tail of the own
+/// noise but errors of another kind.
+constexpr double gross_from = 0.15;
+constexpr double gross_to = 0.6;
+/// Least weight of a reading: of a tail, and of what is probably a gross error.
+constexpr double least_tail_weight = 1e-4;
+constexpr double least_gross_weight = 1e-9;
+
 /// One component: its units in order of series and time, and the columns whose sizes are estimated.
 struct ComponentData {
   std::vector<Index> units;
@@ -59,6 +68,7 @@ struct ComponentData {
   Eigen::VectorXd residual;
   Eigen::VectorXd sigma;
   Eigen::VectorXd weight;
+  double counted = 0.0;    // readings that tell of the own noise: all, or those that are no gross errors
   Eigen::MatrixXd shifts;  // indicator of the state, times the factor by which shifts follow each other
   std::vector<double> state_time_s;
   double drift_part = 0.0;  // of `shifts`
@@ -70,6 +80,8 @@ struct ComponentData {
   double least_scale = 1e-4;       // own noise over what is stated: no instrument resolves less of what moves
   Eigen::MatrixXd hats;            // of a course in time that one series has for itself
   std::vector<double> own_course;  // size of it over the own noise, of each series; 0: none
+
+  bool grossErrors() const { return counted < static_cast<double>(units.size()); }
 };
 
 struct Parameters {
@@ -190,7 +202,7 @@ Eigen::MatrixXd borderedFactor(const ComponentData& data, const Products& produc
 /// Pattern search over the logarithms of scale, shift and smooth part.
 double optimise(const ComponentData& data, const Products& products, bool with_shift, Parameters& p, int rounds) {
   const BorderedGram gram(products.gram, data.shifts.cols());
-  const auto n = static_cast<double>(data.residual.size() - products.constants.rows());
+  const double n = std::max(1.0, data.counted - static_cast<double>(products.constants.rows()));
   // -2 ln of the restricted likelihood, up to a constant.
   const auto deviance = [&](const Parameters& at) {
     return n * 2.0 * at.log_scale + products.log_det + gram.deviance(std::exp(at.log_scale), at.shift, at.smooth) +
@@ -297,8 +309,10 @@ bool findOwnCourses(const ResidualProblem& problem, ComponentData& data, const P
     if (n < 6) continue;
     const Index hats = data.hats.cols();
     Eigen::MatrixXd columns(n, hats + 2);
-    columns << data.hats.middleRows(from, n), Eigen::VectorXd::Ones(n),
-        withoutOutliers(left.segment(from, n), std::exp(p.log_scale) * data.sigma.segment(from, n));
+    Eigen::VectorXd followed = left.segment(from, n);
+    // Gross errors have no weight, and so many of them spoil the median of a neighbourhood.
+    if (!data.grossErrors()) followed = withoutOutliers(followed, std::exp(p.log_scale) * data.sigma.segment(from, n));
+    columns << data.hats.middleRows(from, n), Eigen::VectorXd::Ones(n), followed;
     double log_det = 0.0;
     whitenOwn(problem, data, k, p.part, p.time_s, columns, log_det);
     if (problem.free_constants) {
@@ -360,6 +374,7 @@ ComponentData componentData(const ResidualProblem& problem, const Eigen::VectorX
   out.residual.resize(n);
   out.sigma.resize(n);
   out.weight = Eigen::VectorXd::Ones(n);
+  out.counted = static_cast<double>(n);
   std::map<int, Index> states;
   for (Index i = 0; i < n; ++i) {
     const Index u = out.units[static_cast<std::size_t>(i)];
@@ -555,7 +570,9 @@ void estimateAt(const ResidualProblem& problem, ComponentEstimate& e, bool again
   // Own noise that is correlated in time: tried from what is common among slow instruments to slow rooms.
   // Series of one reading each have no course in time that could be correlated.
   const bool courses = 2 * e.data.series.size() <= static_cast<std::size_t>(e.data.residual.size());
-  const bool enough = !careful && courses && e.data.residual.size() >= 24 && steps.size() >= 7 && step > 0.0;
+  // Readings without weight say nothing of what neighbours have in common, and would gain from any of it.
+  const bool enough =
+      !careful && courses && !e.data.grossErrors() && e.data.residual.size() >= 24 && steps.size() >= 7 && step > 0.0;
   if (enough) {
     double best_correlated = 1e300;
     Parameters correlated;
@@ -605,8 +622,7 @@ void estimateAt(const ResidualProblem& problem, ComponentEstimate& e, bool again
   e.p = chosen;
   e.deviance = best;
   e.own = ownResidual(problem, e.data, chosen_products, e.p);
-  const double dof =
-      std::max(1.0, static_cast<double>(e.data.residual.size()) - (constants ? e.data.series.size() : 0.0));
+  const double dof = std::max(1.0, e.data.counted - (constants ? static_cast<double>(e.data.series.size()) : 0.0));
   e.uncertainty = std::exp(e.p.log_scale) / std::sqrt(2.0 * dof);
 }
 
@@ -676,16 +692,115 @@ std::vector<double> shiftDeviances(const ResidualProblem& problem, const Compone
   return out;
 }
 
-/// Degrees of freedom of the Student distribution of every component's own noise, 0 where it is normal. Few readings of
-/// one component do not tell how heavy tails are: one distribution for all, each by its own scale, but for components
-/// that say themselves that they are normal, so that what disturbs one is not taken for noise of the others.
-std::array<double, 6> tailsOf(const std::array<ComponentEstimate, 6>& estimates) {
-  std::array<double, 6> out{};
+/// What the own noise of a component is beside a normal one.
+struct Tails {
+  double dof = 0.0;            // of the Student distribution; 0: normal
+  double gross_part = 0.0;     // of readings that are gross errors, anywhere in the range of all; 0: none
+  double gross_density = 0.0;  // of these, at any deviation over the stated sigma
+
+  bool operator==(const Tails&) const = default;
+};
+using TailsOfAll = std::array<Tails, 6>;
+
+/// Variance of the counts of `picked` readings over groups of readings, over that of readings picked by chance.
+double dispersionOver(const std::vector<int>& group, const std::vector<char>& picked, double part) {
+  std::map<int, std::array<double, 2>> counts;
+  for (std::size_t i = 0; i < group.size(); ++i) {
+    auto& [all, of_them] = counts[group[i]];
+    all += 1.0;
+    of_them += picked[i] != 0 ? 1.0 : 0.0;
+  }
+  double sum = 0.0;
+  double groups = 0.0;
+  for (const auto& [key, count] : counts) {
+    if (count[0] < 2.0) continue;
+    sum += std::pow(count[1] - part * count[0], 2) / (part * (1.0 - part) * count[0]);
+    groups += 1.0;
+  }
+  // Four standard deviations of what chance brings are taken off.
+  constexpr double sure = 4.0;
+  return groups < 3.0 ? 1.0 : sum / groups - sure * std::sqrt(2.0 / groups);
+}
+
+/// Whether readings that lie far off do so each for itself. What is missing in a simulation does not: its readings are
+/// like their neighbours in time, or it is there in all points of some states, or in all states of some points.
+bool eachForItself(const ResidualProblem& problem, const ComponentData& data, const Eigen::VectorXd& own,
+                   const Eigen::VectorXd& inside) {
+  std::vector<char> gross;
+  double part = 0.0;
+  for (const double w : inside) {
+    gross.push_back(w < 0.5 ? 1 : 0);
+    part += w < 0.5 ? 1.0 / static_cast<double>(inside.size()) : 0.0;
+  }
+  if (!(part > 0.0) || !(part < 1.0)) return false;
+  constexpr double alike = 0.25;
+  constexpr double most_alike = 0.3;
+  double like_neighbours = 0.0;
+  double with_neighbours = 0.0;
+  std::vector<int> states;
+  std::vector<int> points;
+  for (std::size_t k = 0; k < data.series.size(); ++k) {
+    const auto [from, to] = data.series[k];
+    for (Index i = from; i < to; ++i) {
+      states.push_back(problem.epoch[static_cast<std::size_t>(data.units[static_cast<std::size_t>(i)])]);
+      points.push_back(static_cast<int>(k));
+      if (gross[static_cast<std::size_t>(i)] == 0 || to - from < 2) continue;
+      with_neighbours += 1.0;
+      const auto like = [&](Index j) {
+        return j >= from && j < to && std::abs(own[j] - own[i]) < alike * std::abs(own[i]);
+      };
+      like_neighbours += like(i - 1) || like(i + 1) ? 1.0 : 0.0;
+    }
+  }
+  constexpr double by_chance = 1.0;
+  return like_neighbours <= most_alike * with_neighbours && dispersionOver(states, gross, part) < by_chance &&
+         dispersionOver(points, gross, part) < by_chance;
+}
+
+/// Normal noise and gross errors that may be anywhere, by expectation and maximisation. `own`: over the stated sigma.
+/// None where too few lie far off.
+Tails grossErrorsOf(const ResidualProblem& problem, const ComponentData& data, const Eigen::VectorXd& own) {
+  Tails out;
+  const double part = partFarOff(std::vector<double>(own.begin(), own.end()));
+  if (own.size() < 20 || part < gross_from || part > gross_to) return out;
+  const double range = own.maxCoeff() - own.minCoeff();
+  std::vector<double> sizes(own.begin(), own.end());
+  for (double& x : sizes) x = std::abs(x);
+  double s = std::max(1e-9, quantile(sizes, 0.25) / normalQuantile(0.75));
+  out.gross_part = part;
+  for (int round = 0; round < 50; ++round) {
+    double inside = 0.0;
+    double squares = 0.0;
+    for (const double x : own) {
+      const double w = 1.0 / (1.0 + out.gross_part / range * s / ((1.0 - out.gross_part) * normalDensity(x / s)));
+      inside += w;
+      squares += w * x * x;
+    }
+    if (!(inside > 1.0)) break;
+    s = std::max(1e-9, std::sqrt(squares / inside));
+    out.gross_part = std::clamp(1.0 - inside / static_cast<double>(own.size()), 0.01, 0.9);
+  }
+  out.gross_density = out.gross_part / range;
+  Eigen::VectorXd inside(own.size());
+  for (Index i = 0; i < own.size(); ++i) {
+    const double normal = (1.0 - out.gross_part) * normalDensity(own[i] / s) / s;
+    inside[i] = normal / (normal + out.gross_density);
+  }
+  return eachForItself(problem, data, own, inside) ? out : Tails{};
+}
+
+/// Tails of every component's own noise. Few readings of one component do not tell how heavy tails are: one Student
+/// distribution for all, each by its own scale, but for components that say themselves that they are normal, so that
+/// what disturbs one is not taken for noise of the others; and for those where too many lie too far off for any.
+TailsOfAll tailsOf(const ResidualProblem& problem, const std::array<ComponentEstimate, 6>& estimates) {
+  TailsOfAll out;
   std::array<std::vector<double>, 6> own;  // over the scale of their core
   std::size_t readings = 0;
   for (std::size_t c = 0; c < estimates.size(); ++c) {
     if (!estimates[c].present) continue;
     const Eigen::VectorXd& all = estimates[c].own;
+    out[c] = grossErrorsOf(problem, estimates[c].data, std::exp(estimates[c].p.log_scale) * all);
+    if (out[c].gross_part > 0.0) continue;
     std::vector<double> magnitude;
     for (const double value : all) magnitude.push_back(std::abs(value));
     const double scale = std::max(1e-9, 1.4826 * median(magnitude));
@@ -694,19 +809,54 @@ std::array<double, 6> tailsOf(const std::array<ComponentEstimate, 6>& estimates)
   }
   if (readings < 30) return out;
   double best = tail_price;
+  const TailsOfAll normal = out;
   for (const double trial : {3.0, 4.0, 6.0, 10.0}) {
-    std::array<double, 6> dof{};
+    TailsOfAll tails = normal;
     double gain = 0.0;
     for (std::size_t c = 0; c < estimates.size(); ++c) {
-      if (!estimates[c].present) continue;
+      if (own[c].empty()) continue;
       const double of_tails = tailLikelihood(own[c], trial) - tailLikelihood(own[c], 0.0);
-      if (of_tails > -normal_price) dof[c] = trial;
+      if (of_tails > -normal_price) tails[c].dof = trial;
       gain += std::max(of_tails, -normal_price);
     }
     if (gain > best) {
       best = gain;
-      out = dof;
+      out = tails;
     }
+  }
+  return out;
+}
+
+/// Weights of the readings under `tails`.
+void setWeights(ComponentEstimate& e, const Tails& tails) {
+  e.data.counted = static_cast<double>(e.own.size());
+  if (!(tails.gross_part > 0.0)) {
+    for (Index i = 0; i < e.own.size(); ++i) {
+      e.data.weight[i] =
+          tails.dof > 0.0 ? std::max(least_tail_weight, (tails.dof + 1.0) / (tails.dof + e.own[i] * e.own[i])) : 1.0;
+    }
+    return;
+  }
+  // How probable it is that a reading is none of the gross errors.
+  e.data.counted = 0.0;
+  const double density = tails.gross_density * std::exp(e.p.log_scale);
+  for (Index i = 0; i < e.own.size(); ++i) {
+    const double inside = (1.0 - tails.gross_part) * normalDensity(e.own[i]);
+    e.data.weight[i] = std::clamp(inside / (inside + density), least_gross_weight, 1.0 - least_gross_weight);
+    e.data.counted += e.data.weight[i];
+  }
+}
+
+/// What gross errors add to the deviance of the readings that are none, weighted as they are: the two together are
+/// -2 ln of the likelihood of the mixture (Neal and Hinton 1998), up to a constant.
+double devianceOfGrossErrors(const ComponentEstimate& e, const Tails& tails) {
+  if (!(tails.gross_part > 0.0)) return 0.0;
+  double out = 0.0;
+  for (const double w : e.data.weight) {
+    out += w * (std::log(2.0 * std::numbers::pi) - 2.0 * std::log(1.0 - tails.gross_part)) -
+           2.0 * (1.0 - w) * std::log(tails.gross_density) + 2.0 * w * std::log(w) + 2.0 * (1.0 - w) * std::log1p(-w);
+    // The weights are no variances here.
+    out += std::log(w);
   }
   return out;
 }
@@ -736,26 +886,42 @@ NoiseModel estimateNoise(const ResidualProblem& problem, const Eigen::VectorXd& 
       }
     }
     const double spread = std::max(e.data.least_scale, 1.4826 * median(all));
-    for (Index i = 0; i < rough.size(); ++i) {
-      const double z = std::abs(rough[i]) / spread;
-      if (z > 6.0) e.data.weight[i] = 25.0 / (z * z);
-    }
     e.p.log_scale = std::log(spread);
+    const ComponentNoise& known = problem.noise.component[c];
+    if (known.gross_part > 0.0) {
+      // Which readings are gross errors is known but for those that something explains by now.
+      e.p.log_scale = std::log(known.scale);
+      for (Index i = 0; i < rough.size(); ++i)
+        e.data.weight[i] = problem.noise.weight[e.data.units[static_cast<std::size_t>(i)]];
+      e.data.counted = e.data.weight.sum();
+    } else if (const Tails gross = grossErrorsOf(problem, e.data, rough); gross.gross_part > 0.0) {
+      // Of the better half, half lies within 0.67 standard deviations.
+      e.p.log_scale = std::log(std::max(e.data.least_scale, quantile(all, 0.25) / normalQuantile(0.75)));
+      e.own = rough * std::exp(-e.p.log_scale);
+      setWeights(e, gross);
+    } else {
+      for (Index i = 0; i < rough.size(); ++i) {
+        const double z = std::abs(rough[i]) / spread;
+        if (z > 6.0) e.data.weight[i] = 25.0 / (z * z);
+      }
+    }
     estimateWithCourses(problem, e, false, !fitted);
   });
-  std::array<double, 6> tails{};
-  for (int iteration = 0; iteration < 3; ++iteration) {
-    const std::array<double, 6> now = tailsOf(estimates);
-    constexpr std::array<double, 6> none{};
-    if (iteration > 0 && now == none && tails == none) break;
+  TailsOfAll tails{};
+  const auto anyGross = [&] {
+    return std::any_of(tails.begin(), tails.end(), [](const Tails& t) { return t.gross_part > 0.0; });
+  };
+  // Gross errors are told from the others step by step, as what they spoilt recovers.
+  constexpr int most_looks = 3;
+  constexpr int most_looks_with_gross_errors = 12;
+  for (int iteration = 0; iteration < (anyGross() ? most_looks_with_gross_errors : most_looks); ++iteration) {
+    const TailsOfAll now = tailsOf(problem, estimates);
+    if (iteration > 0 && now == TailsOfAll{} && tails == TailsOfAll{}) break;
     tails = now;
     parallelFor(estimates.size(), job, [&](std::size_t c) {
       ComponentEstimate& e = estimates[c];
       if (!e.present) return;
-      const double dof = tails[c];
-      for (Index i = 0; i < e.own.size(); ++i) {
-        e.data.weight[i] = dof > 0.0 ? std::max(1e-4, (dof + 1.0) / (dof + e.own[i] * e.own[i])) : 1.0;
-      }
+      setWeights(e, tails[c]);
       estimateWithCourses(problem, e, true, !fitted);
     });
   }
@@ -772,7 +938,9 @@ NoiseModel estimateNoise(const ResidualProblem& problem, const Eigen::VectorXd& 
     n.drift_time_s = n.drift_part > 0.0 ? e.data.drift_time_s : 0.0;
     n.correlated_part = e.p.part;
     n.correlation_time_s = e.p.part > 0.0 ? e.p.time_s : 0.0;
-    n.tail_dof = tails[c];
+    n.tail_dof = tails[c].dof;
+    n.gross_part = tails[c].gross_part;
+    n.gross_density = tails[c].gross_density;
     for (std::size_t i = 0; i < e.data.units.size(); ++i) {
       out.weight[e.data.units[i]] = e.data.weight[static_cast<Index>(i)];
       any_weight = any_weight || e.data.weight[static_cast<Index>(i)] != 1.0;
@@ -810,15 +978,25 @@ NoiseProfiles noiseProfiles(const ResidualProblem& problem, const Eigen::VectorX
     for (std::size_t i = 0; i < e.data.units.size() && problem.noise.weight.size() > 0; ++i) {
       e.data.weight[static_cast<Index>(i)] = problem.noise.weight[e.data.units[i]];
     }
+    const Tails tails{n.tail_dof, n.gross_part, n.gross_density};
+    if (n.gross_part > 0.0) e.data.counted = e.data.weight.sum();
     e.p.log_scale = std::log(n.scale);
     e.p.part = n.correlated_part;
     e.p.time_s = n.correlation_time_s;
     const std::vector<double> sizes = shiftSizes(problem, c < 3);
     const auto profile = [&](ComponentEstimate estimate, ComponentNoise* shifts = nullptr) {
       estimateWithCourses(problem, estimate, false, false);
+      // Which readings are gross errors depends on what explains the others.
+      constexpr int most_looks = 6;
+      for (int look = 0; n.gross_part > 0.0 && look < most_looks; ++look) {
+        setWeights(estimate, tails);
+        estimateWithCourses(problem, estimate, true, false);
+      }
       if (shifts != nullptr) shifts->drift_part = estimate.data.drift_part;
-      return estimate.data.shifts.cols() > 0 ? shiftDeviances(problem, estimate, sizes)
-                                             : std::vector<double>{estimate.deviance};
+      std::vector<double> deviances = estimate.data.shifts.cols() > 0 ? shiftDeviances(problem, estimate, sizes)
+                                                                      : std::vector<double>{estimate.deviance};
+      for (double& deviance : deviances) deviance += devianceOfGrossErrors(estimate, tails);
+      return deviances;
     };
     out[c].with_unknown = profile(e);
     const Index readings = e.data.residual.size();

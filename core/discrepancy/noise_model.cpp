@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "core/discrepancy/residual_problem.h"
+#include "core/math/distributions.h"
 
 namespace spindrift {
 namespace {
@@ -81,6 +82,15 @@ NoiseModel asInstrumentsDrift(const ResidualProblem& problem, NoiseModel noise) 
     n.drift_part = n.common > 0.0 ? drift / (n.common * n.common) : 0.0;
   }
   return noise;
+}
+
+double partFarOff(std::vector<double> deviations) {
+  if (deviations.empty()) return 0.0;
+  for (double& x : deviations) x = std::abs(x);
+  std::sort(deviations.begin(), deviations.end());
+  const double sigma = deviations[deviations.size() / 4] / normalQuantile(0.75);
+  const auto beyond = deviations.end() - std::upper_bound(deviations.begin(), deviations.end(), far_off * sigma);
+  return static_cast<double>(beyond) / static_cast<double>(deviations.size());
 }
 
 double ComponentNoise::varianceOfStudent() const noexcept {

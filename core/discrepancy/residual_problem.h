@@ -53,6 +53,8 @@ struct ComponentNoise {
   double correlated_part = 0.0;     ///< a, 0 ... 1
   double correlation_time_s = 0.0;  ///< T
   double tail_dof = 0.0;            ///< degrees of freedom of the Student distribution of the own noise; 0: normal
+  double gross_part = 0.0;          ///< of the readings: gross errors, which may be anywhere; 0: none
+  double gross_density = 0.0;       ///< of these, at any deviation over the stated sigma
   double drift_part = 0.0;          ///< b, 0 ... 1: of the variance of shifts, what follows itself in time
   double drift_time_s = 0.0;        ///< T_b
   double largest_drift = largest_drift_shift;  ///< what an instrument drifts by at most, over the own noise
@@ -267,10 +269,20 @@ class ResidualProblem {
   Eigen::VectorXd projected_y_;
 };
 
+/// Standard deviations of the own noise from which on a reading is an outlier.
+inline constexpr double far_off = 5.0;
+
+/// The part of deviations that lies more than `far_off` standard deviations of the others out, where half may lie out:
+/// the scatter of the others is taken from the smallest quarter of all, half of the better half. Normal readings alone
+/// bring 0.02, heavy tails less than 0.1.
+[[nodiscard]] double partFarOff(std::vector<double> deviations);
+
 /// Maximum restricted likelihood of scale, common shift, correlation and tails of every component, while whatever
 /// `residual` (um or urad, over the units) still holds of smooth courses in time with simple patterns in space is free
 /// with a prior whose size is estimated as well. Deterministic.
-/// Sources: Patterson and Thompson 1971 (REML); Lange, Little and Taylor 1989 (Student-t weights).
+/// Where more readings lie far off than tails bring, a part of them is gross errors that may be anywhere.
+/// Sources: Patterson and Thompson 1971 (REML); Lange, Little and Taylor 1989 (Student-t weights); Box and Tiao 1968
+/// (gross errors as a mixture).
 [[nodiscard]] NoiseModel estimateNoise(const ResidualProblem& problem, const Eigen::VectorXd& residual, bool fitted);
 
 /// Components in which `noise` shifts states by more than an instrument does.

@@ -11,47 +11,41 @@
 
 #include "core/base/text.h"
 #include "core/base/unit_text.h"
-#include "core/math/distributions.h"
 
 namespace spindrift {
 namespace {
 
 using Eigen::Index;
 
-/// Standard deviations of the own noise from which on a reading is an outlier.
-constexpr double far_off = 5.0;
-
 std::size_t at(Index unit) {
   return static_cast<std::size_t>(unit);
 }
 
-/// The part of sorted sizes that lies more than `far_off` standard deviations of the others out, where half may lie
-/// out: the scatter of the others is taken from the smallest quarter of all, half of the better half. Normal readings
-/// alone bring 0.02, heavy tails less than 0.1.
-double partFarOff(const std::vector<double>& sizes) {
-  const double sigma = sizes[sizes.size() / 4] / normalQuantile(0.75);
-  const auto beyond = sizes.end() - std::upper_bound(sizes.begin(), sizes.end(), far_off * sigma);
-  return static_cast<double>(beyond) / static_cast<double>(sizes.size());
-}
-
-/// Components of which so many readings lie far from the others that no weighting helps.
+/// Components of which so many readings lie far from the others that they are no tail of the noise.
 void warnAboutOutliers(const ResidualProblem& problem, const Eigen::VectorXd& left,
                        std::vector<std::string>& warnings) {
   constexpr double too_many = 0.15;
+  std::vector<std::string> components;
+  double readings = 0.0;
+  double far = 0.0;
   for (const Component c : all_components) {
-    std::vector<double> sizes;
+    std::vector<double> deviations;
     for (Index u = 0; u < problem.size(); ++u) {
-      if (problem.component[static_cast<std::size_t>(u)] == c) sizes.push_back(std::abs(left[u]) / problem.sigma[u]);
+      if (problem.component[static_cast<std::size_t>(u)] == c) deviations.push_back(left[u] / problem.sigma[u]);
     }
-    if (sizes.size() < 20) continue;
-    std::sort(sizes.begin(), sizes.end());
-    const double part = partFarOff(sizes);
+    if (deviations.size() < 20) continue;
+    const auto count = static_cast<double>(deviations.size());
+    const double part = partFarOff(std::move(deviations));
     if (part < too_many) continue;
-    warnings.push_back(
-        fmt::format("{:.0f} % of the readings of {} lie more than {:.0f} times as far off as the others: too many to "
-                    "be down-weighted; check how they were taken before you rely on a named effect.",
-                    100.0 * part, toString(c), far_off));
+    components.emplace_back(toString(c));
+    readings += count;
+    far += part * count;
   }
+  if (components.empty()) return;
+  warnings.push_back(
+      fmt::format("{:.0f} % of the readings of {} lie more than {:.0f} times as far off as the others and have hardly "
+                  "any weight: check how they were taken before you rely on a named effect.",
+                  100.0 * far / readings, joinedList(components), far_off));
 }
 
 double driftOf(const ComponentNoise& n) {

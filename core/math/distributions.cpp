@@ -27,6 +27,10 @@ using Fisher = boost::math::fisher_f_distribution<double, Policy>;
 
 }  // namespace
 
+double normalDensity(double z) {
+  return pdf(Normal(), z);
+}
+
 double normalCdf(double z) {
   return cdf(Normal(), z);
 }

@@ -5,6 +5,7 @@
 
 namespace spindrift {
 
+[[nodiscard]] double normalDensity(double z);
 [[nodiscard]] double normalCdf(double z);
 /// Inverse of normalCdf, p in (0, 1).
 [[nodiscard]] double normalQuantile(double p);

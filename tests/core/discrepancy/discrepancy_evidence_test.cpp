@@ -56,6 +56,7 @@ struct Workshop {
   double outliers = 0.0;       ///< part of the readings that are 10 sigma off
   bool heavy_tails = false;    ///< Student, 4 degrees of freedom, scale 0.5
   double ar1 = 0.0;
+  double gross = 0.0;  ///< part of the readings that lie anywhere within 100 um
 };
 
 /// The campaign with noise of its own (0.5 um) in place of what it had; `hidden` as small_plant::campaign.
@@ -79,6 +80,7 @@ DiscrepancyInput inWorkshop(Hidden hidden, std::uint64_t seed, const Workshop& w
       noise = at->second;
     }
     if (random.uniform() < w.outliers) noise += random.uniform() < 0.5 ? 10.0 : -10.0;
+    if (w.gross > 0.0 && random.uniform() < w.gross) noise = random.uniform(-200.0, 200.0);
     const auto [common, fresh] = shift.try_emplace({o.state, o.component}, 0.0);
     if (fresh) common->second = random.normal(0.0, 1.0) * w.shift;
     o.value = input.predicted[i] + signal[i] + 0.5 * noise + common->second;
@@ -153,6 +155,32 @@ TEST(NoiseEstimate, GivesLittleWeightToOutliersAndFullWeightToNormalNoise) {
   }
   EXPECT_EQ(heavy, 6);
   EXPECT_GE(normal, 5);
+}
+
+TEST(NoiseEstimate, GrossErrorsAreToldFromTheNoise) {
+  for (const double part : {0.2, 0.35}) {
+    double scale = 0.0;
+    double missed = 0.0;
+    double lost = 0.0;
+    double gross = 0.0;
+    double good = 0.0;
+    constexpr int seeds = 4;
+    for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+      const ResidualProblem problem = problemOf(inWorkshop(Hidden::Nothing, 900 + seed, {.gross = part}));
+      const NoiseModel noise = estimateNoise(problem, problem.y, true);
+      ASSERT_EQ(noise.weight.size(), problem.size()) << part;
+      for (std::size_t c = 0; c < 3; ++c) scale += noise.component[c].scale / (3.0 * seeds);
+      for (Eigen::Index u = 0; u < problem.size(); ++u) {
+        const bool far = std::abs(problem.y[u]) > 5.0;  // ten standard deviations
+        (far ? gross : good) += 1.0;
+        missed += far && noise.weight[u] > 0.01 ? 1.0 : 0.0;
+        lost += !far && noise.weight[u] < 0.5 ? 1.0 : 0.0;
+      }
+    }
+    EXPECT_NEAR(scale, 1.0, 0.15) << part;
+    EXPECT_LT(missed, 0.02 * gross) << part;
+    EXPECT_LT(lost, 0.05 * good) << part;
+  }
 }
 
 TEST(NoiseEstimate, OneComponentWithOutliersDoesNotWidenTheOthers) {
@@ -329,6 +357,27 @@ TEST(Workshop, NothingIsNamedWhereNothingIsHidden) {
     none += result.verdict == DiscrepancyVerdict::None ? 1 : 0;
   }
   EXPECT_GE(none, 9);
+}
+
+/// Every third reading is anywhere: the others tell what is hidden as they would alone.
+TEST(Workshop, WhatIsHiddenIsNamedAmongGrossErrors) {
+  int right = 0;
+  int wrong = 0;
+  constexpr int seeds = 6;
+  for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
+    for (const Hidden hidden : {Hidden::SpindleDrift, Hidden::Nothing}) {
+      const DiscrepancyResult result = run(inWorkshop(hidden, 70 + seed, {.gross = 0.33}, 8.0));
+      for (const FoundEffect& e : result.effects) {
+        const bool is_it = hidden == Hidden::SpindleDrift && e.id == "spindle.drift.y";
+        (is_it ? right : wrong) += 1;
+      }
+      EXPECT_TRUE(std::any_of(result.warnings.begin(), result.warnings.end(), [](const std::string& w) {
+        return w.find("have hardly any weight") != std::string::npos;
+      }));
+    }
+  }
+  EXPECT_GE(right, seeds - 1);
+  EXPECT_LE(wrong, 1);
 }
 
 TEST(Workshop, OutliersAreListedByTheirRows) {
