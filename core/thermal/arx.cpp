@@ -276,14 +276,15 @@ std::vector<double> ArxModel::simulate(const std::vector<std::vector<double>>& i
                                        std::span<const double> start) const {
   SPINDRIFT_ASSERT(inputs.size() == b.size() && !inputs.empty(), "wrong number of inputs");
   const auto n = static_cast<Index>(inputs.front().size());
-  std::vector<double> y(static_cast<std::size_t>(n), 0.0);
-  const auto past = [&](Index k) {
-    if (k >= 0) return y[k];
-    if (start.empty()) return 0.0;
-    const auto index = static_cast<Index>(start.size()) + k;
-    return start[static_cast<std::size_t>(std::max<Index>(0, index))];
-  };
-  for (Index k = 0; k < n; ++k) {
+  std::vector<double> y(start.begin(), start.end());
+  y.resize(static_cast<std::size_t>(n), 0.0);
+  double rest = c;
+  for (std::size_t i = 0; i < b.size(); ++i) rest += b[i].sum() * inputs[i].front();
+  const double denominator = 1.0 + a.sum();
+  rest = denominator != 0.0 ? rest / denominator : 0.0;
+  const double before = start.empty() ? rest : start.front();
+  const auto past = [&](Index k) { return k >= 0 ? y[static_cast<std::size_t>(k)] : before; };
+  for (auto k = static_cast<Index>(std::min(start.size(), y.size())); k < n; ++k) {
     double v = c;
     for (Index j = 1; j <= a.size(); ++j) v -= a[j - 1] * past(k - j);
     for (std::size_t i = 0; i < b.size(); ++i)

@@ -57,8 +57,8 @@ struct ArxModel {
   };
   /// Of the real poles between 0 and 1, slowest first, with standard uncertainty.
   [[nodiscard]] std::vector<TimeConstant> timeConstants() const;
-  /// Free run: starts from `start` (values of y before the first sample, latest last; missing ones repeat the first)
-  /// and never looks at y again.
+  /// Free run: begins after `start`, the measured y of the first samples, and never looks at y again. Without any it
+  /// begins as the lags of a ThermalModel do: at rest at the first inputs, which held for ever before.
   [[nodiscard]] std::vector<double> simulate(const std::vector<std::vector<double>>& inputs,
                                              std::span<const double> start) const;
   /// Response to a unit step of one input.

@@ -82,7 +82,7 @@ PlainModel firstOrderArx(const TimeSeries& series, const std::string& output, do
   double widest = 0.0;
   for (const Signal& s : series.signals) {
     if (s.name == output) continue;
-    if (speed == nullptr && (s.kind == SignalKind::Speed || s.kind == SignalKind::Feed)) speed = &s;
+    if (speed == nullptr && isDriven(s.kind)) speed = &s;
     if (s.kind != SignalKind::Temperature) continue;
     const SignalQuality q = signalQuality(series, s);
     if (q.maximum - q.minimum > widest) {
@@ -145,7 +145,7 @@ PlainModel laggedRidge(const TimeSeries& series, const std::string& output, doub
   };
   std::vector<Group> groups;
   for (const Signal& s : series.signals) {
-    const bool driven = s.kind == SignalKind::Speed || s.kind == SignalKind::Feed;
+    const bool driven = isDriven(s.kind);
     if ((s.kind != SignalKind::Temperature && !driven) || s.name == output) continue;
     const std::vector<double> u = bridged(series.time_s, s.values, driven);
     if (!changes(u, rows)) continue;

@@ -117,6 +117,7 @@ std::string Compensator::load(const ThermalModel& model, double cycle_s, const C
       const bool driven =
           input.kind == SignalKind::Speed || input.kind == SignalKind::Feed || input.kind == SignalKind::Switch;
       const double margin = std::max(limits.range_margin * range, driven ? 0.0 : limits.minimum_margin);
+      size_only_[source] = isDriven(input.kind);
       train_low_[source] = input.train_min;
       train_high_[source] = input.train_max;
       low_[source] = input.train_min - margin;
@@ -235,6 +236,31 @@ void Compensator::sweep() noexcept {
   }
 }
 
+/// An input was not known for a while and is again: its lags went on with its last good value. It moved on in the
+/// meantime, straight as far as anybody knows, and so do they: the response of a lag to a straight line of the length
+/// h = gap / tau that ends at f is f (1 - (1 - exp(-h)) / h).
+void Compensator::catchUp(int source, double gap_s) noexcept {
+  const double cycles = gap_s / cycle_s_;
+  std::array<double, 3 * maximum_inputs> moved{};
+  for (int t = 0; t < transforms_; ++t) {
+    if (transform_[t].source != source) continue;
+    moved[t] = (now_[t] - before_[t]) * cycles / (cycles + 1.0);
+    before_[t] += moved[t];
+  }
+  for (int o = 0; o < outputs_; ++o) {
+    int lag = first_[o];
+    for (int r = first_round_[o]; r < first_round_[o + 1]; ++r) {
+      for (int j = 0; j < round_size_[r]; ++j, ++lag) {
+        const int t = order_[o][j];
+        if (transform_[t].source != source || moved[t] == 0.0) continue;
+        const double h = -std::log(a_[lag]) * cycles;
+        const double part = h < 1e-6 ? 0.5 * h : 1.0 + std::expm1(-h) / h;
+        v_[lag] += rest_[lag] * moved[t] * part;
+      }
+    }
+  }
+}
+
 CompensatorState Compensator::step(const double* inputs, const double* age_s, double* outputs) noexcept {
   if (state_ == CompensatorState::Empty) {
     refused_ = -1;
@@ -246,9 +272,14 @@ CompensatorState Compensator::step(const double* inputs, const double* age_s, do
     return values;
   }();
   if (inputs == nullptr) inputs = none.data();
+  std::array<double, maximum_inputs> acting;
+  for (int i = 0; i < inputs_; ++i) acting[i] = size_only_[i] ? std::abs(inputs[i]) : inputs[i];
+  inputs = acting.data();
   // Inputs: a bad one keeps its last good value for a while.
   refused_ = -1;
   bool lost = false;
+  std::array<double, maximum_inputs> gap_s;  // of inputs that are good again
+  bool back = false;
   // The usual case without branches per input; written so that NaN fails.
   bool all_good = age_s == nullptr && !was_bad_;
   for (int i = 0; i < inputs_; ++i) all_good = all_good & (inputs[i] >= low_[i]) & (inputs[i] <= high_[i]);
@@ -258,6 +289,8 @@ CompensatorState Compensator::step(const double* inputs, const double* age_s, do
     for (int i = 0; i < inputs_; ++i) {
       const double age = age_s != nullptr ? age_s[i] : 0.0;
       const bool good = inputs[i] >= low_[i] && inputs[i] <= high_[i] && age >= 0.0 && age <= limits_.stale_after_s;
+      gap_s[i] = good ? bad_for_s_[i] : 0.0;
+      back = back || gap_s[i] > 0.0;
       if (good) {
         last_good_[i] = inputs[i];
         bad_for_s_[i] = 0.0;
@@ -294,6 +327,9 @@ CompensatorState Compensator::step(const double* inputs, const double* age_s, do
   for (int t = 0; t < transforms_; ++t)
     now_[t] = powered(last_good_[transform_[t].source] * transform_[t].inverse_scale, transform_[t].power);
   const bool at_rest = !started_;
+  if (back && !at_rest)
+    for (int i = 0; i < inputs_; ++i)
+      if (gap_s[i] > 0.0) catchUp(i, gap_s[i]);
   started_ = true;
   const double largest_change = limits_.slew_per_s * cycle_s_;
   std::array<double, maximum_outputs> value;

@@ -100,6 +100,7 @@ class Compensator {
   };
   static double powered(double magnitude, double power) noexcept;
   void sweep() noexcept;
+  void catchUp(int source, double gap_s) noexcept;
 
   int inputs_ = 0;
   int outputs_ = 0;
@@ -118,6 +119,7 @@ class Compensator {
   bool forced_ = false;
   std::array<std::string, maximum_inputs> input_names_;  // written by `load` alone
   std::array<std::string, maximum_outputs> output_names_;
+  std::array<bool, maximum_inputs> size_only_{};  ///< speeds and feeds: heat has no direction
   std::array<double, maximum_inputs> low_{};
   std::array<double, maximum_inputs> high_{};
   std::array<double, maximum_inputs> train_low_{};

@@ -57,7 +57,7 @@ Groups prepare(const TimeSeries& series, const std::string& output, const std::v
     const Signal& signal = series.at(name);
     const bool hold = holdsUntilNextRow(signal.kind);
     std::vector<double> u = bridged(series.time_s, signal.values, hold);
-    const bool driven = signal.kind == SignalKind::Speed || signal.kind == SignalKind::Feed;
+    const bool driven = isDriven(signal.kind);
     if (driven)
       for (double& v : u) v = std::copysign(std::pow(std::abs(v) * 1e-3, options.speed_power), v);
     Eigen::MatrixXd X(n, static_cast<Index>(options.taus_s.size()));

@@ -37,9 +37,10 @@ class Problem {
     for (std::size_t i = 0; i < inputs.size(); ++i)
       for (int k = 0; k < inputs[i].lags; ++k) layout_.input.push_back(static_cast<int>(i));
     layout_.lags = static_cast<Index>(layout_.input.size());
-    for (const OutputErrorInput& input : inputs) centre_.push_back(mean(input.values));
-    shortest_ = std::log(0.2 * (time.back() - time.front()) / static_cast<double>(time.size()));
-    longest_ = std::log(5.0 * (time.back() - time.front()));
+    for (const OutputErrorInput& input : inputs) centre_.push_back(mean(input.values.last(y.size())));
+    const double span = time.back() - time[time.size() - y.size()];
+    shortest_ = std::log(0.2 * span / static_cast<double>(y.size()));
+    longest_ = std::log(5.0 * span);
   }
   [[nodiscard]] const Layout& layout() const { return layout_; }
   void setNoise(const Autoregression& noise) { noise_ = noise; }
@@ -57,12 +58,12 @@ class Problem {
       const OutputErrorInput& input = inputs_[i];
       const double tau = std::exp(s.theta[1 + layout_.lags + k]);
       const double gain = s.theta[1 + k];
-      std::vector<double> x = lagFiltered(time_, input.values, tau, input.hold);
+      const std::vector<double> x = lagFiltered(time_, input.values, tau, input.hold);
       if (with_jacobian) {
         const std::vector<double> slope = lagSensitivity(time_, input.values, tau, input.hold);
-        s.jacobian.col(1 + layout_.lags + k) = gain * Eigen::Map<const Eigen::VectorXd>(slope.data(), n);
+        s.jacobian.col(1 + layout_.lags + k) = gain * tailOf(slope);
       }
-      const auto centred = Eigen::Map<const Eigen::VectorXd>(x.data(), n).array() - centre_[i];
+      const auto centred = tailOf(x).array() - centre_[i];
       s.residual.array() -= gain * centred;
       if (with_jacobian) s.jacobian.col(1 + k) = centred.matrix();
     }
@@ -95,8 +96,7 @@ class Problem {
       for (Index g = 0; g < m; ++g) {
         const std::vector<double> x =
             lagFiltered(time_, inputs_[i].values, grid_s[static_cast<std::size_t>(g)], inputs_[i].hold);
-        columns.col(2 + static_cast<Index>(i) * m + g) =
-            (Eigen::Map<const Eigen::VectorXd>(x.data(), n).array() - centre_[i]).matrix();
+        columns.col(2 + static_cast<Index>(i) * m + g) = (tailOf(x).array() - centre_[i]).matrix();
       }
     }
     const Eigen::MatrixXd products = columns.transpose() * columns;
@@ -154,6 +154,11 @@ class Problem {
   }
 
  private:
+  /// Of values at all times those at which there is an output.
+  [[nodiscard]] Eigen::Map<const Eigen::VectorXd> tailOf(const std::vector<double>& values) const {
+    return {values.data() + (values.size() - y_.size()), static_cast<Index>(y_.size())};
+  }
+
   std::span<const double> time_;
   std::span<const double> y_;
   const std::vector<OutputErrorInput>& inputs_;
@@ -248,13 +253,12 @@ double OutputErrorResult::coverageFactor(double probability) const {
 
 OutputErrorResult fitOutputError(std::span<const double> time_s, std::span<const double> y,
                                  const std::vector<OutputErrorInput>& inputs, const OutputErrorOptions& options) {
-  SPINDRIFT_ASSERT(time_s.size() == y.size() && !inputs.empty(),
-                   "time and output differ in length, or there is no input");
+  SPINDRIFT_ASSERT(time_s.size() >= y.size() && !inputs.empty(), "an output has no time, or there is no input");
   OutputErrorResult result;
   Index lags = 0;
   for (const OutputErrorInput& input : inputs) {
-    SPINDRIFT_ASSERT(input.values.size() == y.size() && input.lags >= 1,
-                     "input and output differ in length, or an input has no time constant");
+    SPINDRIFT_ASSERT(input.values.size() == time_s.size() && input.lags >= 1,
+                     "input and times differ in length, or an input has no time constant");
     lags += input.lags;
     if (std::all_of(input.values.begin(), input.values.end(), [&](double v) { return v == input.values.front(); })) {
       throw InputError(
@@ -269,8 +273,8 @@ OutputErrorResult fitOutputError(std::span<const double> time_s, std::span<const
                                  1 + 2 * lags, 5 * (1 + 2 * lags)));
   }
   Problem problem(time_s, y, inputs);
-  const double span = time_s.back() - time_s.front();
-  const double period = span / static_cast<double>(time_s.size() - 1);
+  const double span = time_s.back() - time_s[time_s.size() - y.size()];
+  const double period = span / static_cast<double>(y.size() - 1);
   const double low = std::log(4.0 * period);
   const double high = std::log(0.3 * span);
   std::vector<double> grid;
@@ -357,7 +361,7 @@ OutputErrorResult fitOutputError(std::span<const double> time_s, std::span<const
     std::iota(order.begin(), order.end(), first);
     std::sort(order.begin(), order.end(),
               [&](Index a, Index b) { return best.theta[1 + lags + a] > best.theta[1 + lags + b]; });
-    const double centre = mean(inputs[i].values);
+    const double centre = mean(inputs[i].values.last(y.size()));
     result.gains.emplace_back();
     result.taus_s.emplace_back();
     for (std::size_t k = 0; k < order.size(); ++k) {

@@ -82,12 +82,14 @@ struct OrderChoice {
 [[nodiscard]] OrderChoice chooseOutputErrorOrder(std::span<const double> time_s, std::span<const double> y,
                                                  std::vector<OutputErrorInput> inputs, double held_out_part = 0.3);
 
-/// The lags of an ARX model: poles and residues of every input, what they leave of the static gain as a direct term.
-/// Terms count inputs from 0. Empty with a sentence in `message` if a pole is not real and between 0 and 1.
-[[nodiscard]] std::vector<LagTerm> lagsOf(const ArxModel& model, std::string& message);
+/// The lags of an ARX model, exactly: poles and residues of every input, each input followed from sample to sample as
+/// ThermalModel does it (`hold`: its value holds until the next), what is left of the static gain as a direct term.
+/// Terms count inputs from 0. Empty with a sentence in `message` where there is no such model: a pole is not real and
+/// between 0 and 1, or an input has a dead time (nk + nb - 1 > na).
+[[nodiscard]] std::vector<LagTerm> lagsOf(const ArxModel& model, const std::vector<bool>& hold, std::string& message);
 
 /// Covariance of (offset, gains, ln tau) of those lags from that of the ARX coefficients, by central differences.
 /// Empty if the model has no covariance or no lags near it.
-[[nodiscard]] Eigen::MatrixXd lagCovariance(const ArxModel& model);
+[[nodiscard]] Eigen::MatrixXd lagCovariance(const ArxModel& model, const std::vector<bool>& hold);
 
 }  // namespace spindrift

@@ -48,16 +48,18 @@ OrderChoice chooseArxOrder(std::span<const double> y, const std::vector<std::spa
     all_inputs.emplace_back(u.begin(), u.end());
   }
   std::vector<OrderCandidate> tried;
-  for (int na = 1; na <= 4; ++na) {
+  constexpr int largest_order = 4;
+  for (int na = 1; na <= largest_order; ++na) {
     for (int nb = 1; nb <= na; ++nb) {
       for (int nk = 0; nk <= 3; ++nk) {
+        if (nk + nb - 1 > na) continue;  // a dead time, which no model of time constants has
         ArxOrder order{na, std::vector<int>(inputs.size(), nb), std::vector<int>(inputs.size(), nk)};
         if (cut < static_cast<std::size_t>(10 * order.parameters(true))) continue;
         ArxOptions options;
         options.with_constant = true;
         const ArxModel model = fitArx(y.first(cut), fit_inputs, order, period_s, options);
         if (model.status != FitStatus::Converged || !model.stable()) continue;
-        const std::vector<double> simulated = model.simulate(all_inputs, y.first(1));
+        const std::vector<double> simulated = model.simulate(all_inputs, y.first(largest_order));
         tried.push_back({na, nb, nk, heldOutRms(y, simulated, cut)});
       }
     }
@@ -67,12 +69,14 @@ OrderChoice chooseArxOrder(std::span<const double> y, const std::vector<std::spa
 
 OrderChoice chooseOutputErrorOrder(std::span<const double> time_s, std::span<const double> y,
                                    std::vector<OutputErrorInput> inputs, double held_out_part) {
+  SPINDRIFT_ASSERT(time_s.size() >= y.size(), "an output without a time");
+  const std::size_t before = time_s.size() - y.size();
   const auto cut = static_cast<std::size_t>(static_cast<double>(y.size()) * (1.0 - held_out_part));
   std::vector<OrderCandidate> tried;
   for (int lags = 1; lags <= 3; ++lags) {
     std::vector<OutputErrorInput> part = inputs;
     for (OutputErrorInput& input : part) {
-      input.values = input.values.first(cut);
+      input.values = input.values.first(before + cut);
       input.lags = lags;
     }
     if (cut < 20 * (1 + 2 * lags * inputs.size())) continue;
@@ -80,12 +84,12 @@ OrderChoice chooseOutputErrorOrder(std::span<const double> time_s, std::span<con
     options.noise_order = 0;
     options.starts = 2;
     options.maximum_iterations = 25;
-    const OutputErrorResult fit = fitOutputError(time_s.first(cut), y.first(cut), part, options);
+    const OutputErrorResult fit = fitOutputError(time_s.first(before + cut), y.first(cut), part, options);
     std::vector<double> simulated(y.size(), fit.offset);
     for (std::size_t i = 0; i < inputs.size(); ++i) {
       for (std::size_t k = 0; k < fit.gains[i].size(); ++k) {
         const std::vector<double> x = lagFiltered(time_s, inputs[i].values, fit.taus_s[i][k], inputs[i].hold);
-        for (std::size_t r = 0; r < x.size(); ++r) simulated[r] += fit.gains[i][k] * x[r];
+        for (std::size_t r = 0; r < y.size(); ++r) simulated[r] += fit.gains[i][k] * x[before + r];
       }
     }
     tried.push_back({lags, lags, 0, heldOutRms(y, simulated, cut)});
@@ -93,7 +97,8 @@ OrderChoice chooseOutputErrorOrder(std::span<const double> time_s, std::span<con
   return settle(std::move(tried));
 }
 
-std::vector<LagTerm> lagsOf(const ArxModel& model, std::string& message) {
+std::vector<LagTerm> lagsOf(const ArxModel& model, const std::vector<bool>& hold, std::string& message) {
+  SPINDRIFT_ASSERT(hold.size() == model.b.size(), "inputs differ in number");
   std::vector<double> poles;
   for (const auto& pole : model.poles()) {
     if (std::abs(pole.imag()) > 1e-9 || pole.real() <= 0.0 || pole.real() >= 1.0) {
@@ -103,6 +108,16 @@ std::vector<LagTerm> lagsOf(const ArxModel& model, std::string& message) {
       return {};
     }
     poles.push_back(pole.real());
+  }
+  const auto order = static_cast<Index>(poles.size());
+  for (std::size_t i = 0; i < model.b.size(); ++i) {
+    if (model.order.nk[i] + model.b[i].size() - 1 > order) {
+      message =
+          "the model has a dead time or more coefficients of an input than poles (nk + nb - 1 > na), so it has no "
+          "equivalent in first-order time constants; use a lower order, or the response or output-error method, for a "
+          "compensator.";
+      return {};
+    }
   }
   std::vector<LagTerm> terms;
   for (std::size_t i = 0; i < model.b.size(); ++i) {
@@ -119,18 +134,21 @@ std::vector<LagTerm> lagsOf(const ArxModel& model, std::string& message) {
         }
         residue /= 1.0 - poles[l] / poles[k];
       }
-      const double gain = residue / (1.0 - poles[k]);
+      // The lag of one pole has the residue b1 + b0 / p at it, its direct part goes to the rest.
+      const double tau_s = -model.period_s / std::log(poles[k]);
+      const LagStep lag = lagStep(model.period_s, tau_s, hold[i]);
+      const double gain = residue / (lag.b1 + lag.b0 / poles[k]);
       rest -= gain;
-      terms.push_back({static_cast<int>(i), -model.period_s / std::log(poles[k]), gain});
+      terms.push_back({static_cast<int>(i), tau_s, gain});
     }
     terms.push_back({static_cast<int>(i), 0.0, rest});
   }
   return terms;
 }
 
-Eigen::MatrixXd lagCovariance(const ArxModel& model) {
+Eigen::MatrixXd lagCovariance(const ArxModel& model, const std::vector<bool>& hold) {
   const Index p = model.covariance.rows();
-  const auto coefficients = [&model](Index which, double change) {
+  const auto coefficients = [&model, &hold](Index which, double change) {
     ArxModel moved = model;
     Index at = model.a.size();
     if (which < at) moved.a[which] += change;
@@ -140,7 +158,7 @@ Eigen::MatrixXd lagCovariance(const ArxModel& model) {
     }
     if (which == at) moved.c += change;
     std::string message;
-    const std::vector<LagTerm> terms = lagsOf(moved, message);
+    const std::vector<LagTerm> terms = lagsOf(moved, hold, message);
     Eigen::VectorXd out(static_cast<Index>(terms.empty() ? 0 : 1 + 2 * terms.size()));
     if (terms.empty()) return out;
     out[0] = moved.c / (1.0 + moved.a.sum());

@@ -80,10 +80,6 @@ std::vector<double> windowOf(const TimeSeries& series, const Signal& signal, dou
 
 }  // namespace
 
-bool isDriven(SignalKind kind) {
-  return kind == SignalKind::Speed || kind == SignalKind::Feed;
-}
-
 Dictionary buildDictionary(const TimeSeries& series, const std::vector<double>& y,
                            const std::vector<std::string>& names, double from_s, double to_s,
                            const ResponseFitOptions& options) {

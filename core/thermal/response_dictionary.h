@@ -36,16 +36,14 @@ struct Dictionary {
   bool by_operation = false;  ///< blocks begin where a speed or feed leaves zero; else equal parts
 };
 
-[[nodiscard]] bool isDriven(SignalKind kind);
-
 /// Bins between `from_s` and `to_s` in which the output was measured; empty if there are none. `y`: the output at
 /// every row.
 [[nodiscard]] Dictionary buildDictionary(const TimeSeries& series, const std::vector<double>& y,
                                          const std::vector<std::string>& names, double from_s, double to_s,
                                          const ResponseFitOptions& options);
 
-/// Drops what cannot be used and says why; of more than 64 columns those are kept that tell most, so that memory and time
-/// stay what they are with 64. Throws InputError if an input is the output itself.
+/// Drops what cannot be used and says why; of more than 64 columns those are kept that tell most, so that memory and
+/// time stay what they are with 64. Throws InputError if an input is the output itself.
 [[nodiscard]] std::vector<std::string> usableInputs(const TimeSeries& series, const std::string& output,
                                                     const std::vector<std::string>& names, double from_s, double to_s,
                                                     std::vector<InputVerdict>& verdicts);

@@ -16,7 +16,7 @@
 namespace spindrift {
 
 double ThermalInput::transformed(double u) const noexcept {
-  const double v = u / scale;
+  const double v = acting(u) / scale;
   return power == 1.0 ? v : std::copysign(std::pow(std::abs(v), power), v);
 }
 
@@ -260,7 +260,8 @@ std::vector<char> ThermalModel::outsideTraining(const std::vector<double>& novel
     const double margin = 0.02 * (inputs[i].train_max - inputs[i].train_min);
     double worst = 0.0;
     for (std::size_t r = 0; r < count; ++r) {
-      const double beyond = std::max(u[r] - inputs[i].train_max, inputs[i].train_min - u[r]);
+      const double acting = inputs[i].acting(u[r]);
+      const double beyond = std::max(acting - inputs[i].train_max, inputs[i].train_min - acting);
       if (beyond <= margin) continue;
       if (!jointly) outside[r] = 1;
       worst = std::max(worst, beyond);
@@ -334,7 +335,7 @@ StepResponse ThermalModel::stepResponse(std::size_t which, const std::string& in
   if (longest <= 0.0) longest = shortest = 1.0;
   double from = 0.0;
   for (const ThermalInput& i : inputs) {
-    if (i.name != input || !(i.kind == SignalKind::Speed || i.kind == SignalKind::Feed)) continue;
+    if (i.name != input || !isDriven(i.kind)) continue;
     response.step = std::max(std::abs(i.train_max), std::abs(i.train_min));
     if (response.step == 0.0) response.step = 1.0;
   }

@@ -14,6 +14,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -35,6 +36,8 @@ struct ThermalInput {
   double reference = 0.0;  ///< of f(u)
   double train_min = 0.0;  ///< range of u in the training data
   double train_max = 0.0;
+  /// What acts of u: of speeds and feeds the size, for heat has no direction.
+  [[nodiscard]] double acting(double u) const noexcept { return isDriven(kind) ? std::abs(u) : u; }
   [[nodiscard]] double transformed(double u) const noexcept;
 };
 

@@ -228,6 +228,8 @@ TimeSeries seriesOf(CsvRows& rows, const TimeSeriesOptions& options) {
           fmt::format("{} of {} values of {} are missing.", missing, series.time_s.size(), signal.name));
     signal.values = std::move(column.values);
     signal.kind = signalKind(signal.name, signal.values);
+    if (isDriven(signal.kind))
+      for (double& v : signal.values) v = std::abs(v);
     series.signals.push_back(std::move(signal));
   }
   settleTemperatureUnits(series, options);
@@ -323,6 +325,31 @@ BinnedSeries binSeries(std::span<const double> time_s, double period_s, double f
   return bins;
 }
 
+namespace {
+
+/// Mean over the time from t_s to t_s + period_s of values that hold until the next one, at most bridge_s; NaN where
+/// none does.
+double meanFrom(const std::vector<double>& times_s, const std::vector<double>& values, double t_s, double period_s,
+                double bridge_s) {
+  double sum = 0.0;
+  double whole_s = 0.0;
+  auto r = std::upper_bound(times_s.begin(), times_s.end(), t_s) - times_s.begin();
+  for (r = std::max<std::ptrdiff_t>(0, r - 1); r < std::ssize(times_s) && times_s[r] < t_s + period_s; ++r) {
+    double end_s = times_s[r] + bridge_s;
+    if (r + 1 < std::ssize(times_s)) {
+      if (times_s[r + 1] > end_s) continue;
+      end_s = times_s[r + 1];
+    }
+    const double held_s = std::min(end_s, t_s + period_s) - std::max(times_s[r], t_s);
+    if (!(held_s > 0.0)) continue;
+    sum += held_s * values[r];
+    whole_s += held_s;
+  }
+  return whole_s > 0.0 ? sum / whole_s : missing;
+}
+
+}  // namespace
+
 TimeSeries resampled(const TimeSeries& series, double period_s, double longest_bridge_s) {
   SPINDRIFT_ASSERT(period_s > 0.0 && !series.time_s.empty(), "resampling needs a period and rows");
   TimeSeries out;
@@ -330,7 +357,9 @@ TimeSeries resampled(const TimeSeries& series, double period_s, double longest_b
   out.notes = series.notes;
   const double start = series.time_s.front();
   const auto count = static_cast<std::size_t>(std::floor((series.time_s.back() - start) / period_s + 1e-9)) + 1;
-  const bool coarser = period_s > 1.5 * series.medianPeriod_s();
+  const double median_s = series.medianPeriod_s();
+  const bool coarser = period_s > 1.5 * median_s;
+  const double bridge_s = std::max(longest_bridge_s, 1.5 * median_s);
   out.time_s.resize(count);
   for (std::size_t i = 0; i < count; ++i) out.time_s[i] = start + static_cast<double>(i) * period_s;
   for (const Signal& signal : series.signals) {
@@ -346,21 +375,33 @@ TimeSeries resampled(const TimeSeries& series, double period_s, double longest_b
     std::size_t first = 0;
     for (std::size_t i = 0; i < count; ++i) {
       const double t = out.time_s[i];
-      while (first < times.size() && times[first] < t - 0.5 * period_s) ++first;
+      // A row on a border belongs to both sides, or the mean would be that of an earlier time.
+      const double border_s = 1e-6 * period_s;
+      const auto onBorder = [&](double row_s) { return std::abs(row_s - t) > 0.5 * period_s - border_s; };
+      while (first < times.size() && times[first] < t - 0.5 * period_s - border_s) ++first;
+      if (coarser && holdsUntilNextRow(signal.kind)) {
+        // What holds until the next row is what acts until the next time: its mean over that.
+        if (const double value = meanFrom(times, values, t, period_s, bridge_s); std::isfinite(value)) {
+          target.values[i] = value;
+          continue;
+        }
+      }
       double sum = 0.0;
-      std::size_t n = 0;
-      for (std::size_t r = first; coarser && r < times.size() && times[r] < t + 0.5 * period_s; ++r, ++n)
-        sum += values[r];
-      if (n > 0) {
-        target.values[i] = sum / static_cast<double>(n);
+      double whole = 0.0;
+      for (std::size_t r = first; coarser && r < times.size() && times[r] <= t + 0.5 * period_s + border_s; ++r) {
+        const double weight = onBorder(times[r]) ? 0.5 : 1.0;
+        sum += weight * values[r];
+        whole += weight;
+      }
+      if (whole > 0.0) {
+        target.values[i] = sum / whole;
         continue;
       }
       const auto next = std::lower_bound(times.begin(), times.end(), t) - times.begin();
       const auto last = static_cast<std::ptrdiff_t>(times.size());
       if (next < last && times[next] == t) {
         target.values[i] = values[next];
-      } else if (next > 0 && next < last &&
-                 times[next] - times[next - 1] <= std::max(longest_bridge_s, 1.5 * series.medianPeriod_s())) {
+      } else if (next > 0 && next < last && times[next] - times[next - 1] <= bridge_s) {
         const double w = (t - times[next - 1]) / (times[next] - times[next - 1]);
         target.values[i] =
             holdsUntilNextRow(signal.kind) ? values[next - 1] : (1.0 - w) * values[next - 1] + w * values[next];

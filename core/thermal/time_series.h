@@ -34,6 +34,11 @@ enum class SignalKind { Temperature, Speed, Feed, Switch, Position, Displacement
   return kind == SignalKind::Speed || kind == SignalKind::Feed || kind == SignalKind::Switch;
 }
 
+/// Friction: what a spindle or an axis heats by, whichever way it turns or moves.
+[[nodiscard]] constexpr bool isDriven(SignalKind kind) noexcept {
+  return kind == SignalKind::Speed || kind == SignalKind::Feed;
+}
+
 struct Signal {
   std::string name;
   SignalKind kind = SignalKind::Other;
@@ -98,9 +103,10 @@ struct BinnedSeries {
                                      double from_s = -std::numeric_limits<double>::infinity(),
                                      double to_s = std::numeric_limits<double>::infinity());
 
-/// A uniform grid from the first to the last time of the series: box mean of each bin if the grid is coarser than the
-/// rows (anti-alias), interpolation by the rule of the kind if it is finer. Gaps longer than `longest_bridge_s` stay
-/// missing (NaN).
+/// A uniform grid from the first to the last time of the series. Where it is coarser than the rows (anti-alias): the
+/// mean over the period around each time, and of what holds until the next row the mean over the period after it, for
+/// that is what acts until the next time of the grid. Else interpolation by the rule of the kind. Gaps longer than
+/// `longest_bridge_s` stay missing (NaN).
 [[nodiscard]] TimeSeries resampled(const TimeSeries& series, double period_s, double longest_bridge_s);
 
 /// Adds sparse signals (for example probing results) to the rows of `fast`: each sparse value stands at the nearest row

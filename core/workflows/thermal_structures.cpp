@@ -135,7 +135,13 @@ double equationWhiteness(const ArxModel& model, std::span<const double> y,
   constexpr std::size_t lags = 20;
   if (e.size() < 5 * lags) return 1.0;
   const double zero = std::inner_product(e.begin(), e.end(), e.begin(), 0.0);
-  if (!(zero > 0.0)) return 1.0;
+  // What rounding leaves of an exact model is no noise.
+  constexpr double rounding = 1e-9;
+  double middle = 0.0;
+  for (const double v : y) middle += v / static_cast<double>(y.size());
+  double whole = 0.0;
+  for (const double v : y) whole += (v - middle) * (v - middle);
+  if (!(zero > rounding * rounding * whole)) return 1.0;
   const auto n = static_cast<double>(e.size());
   double q = 0.0;
   for (std::size_t lag = 1; lag <= lags; ++lag) {
@@ -180,12 +186,9 @@ StructuredFit fitByArx(const TimeSeries& series, const IdentifyRequest& request,
         "are "
         "biased and their intervals do not hold; use --method oe or response.");
   }
-  std::vector<std::vector<double>> from_start;
-  for (const auto& v : b.u) from_start.emplace_back(v.begin() + static_cast<std::ptrdiff_t>(b.first), v.end());
-  const std::vector<double> simulated = model.simulate(from_start, y.first(1));
-  std::vector<double> grid(b.all.time_s.size(), simulated.front());
-  std::copy(simulated.begin(), simulated.end(), grid.begin() + static_cast<std::ptrdiff_t>(b.first));
-  out.predicted = atRows(series, b.all.time_s, grid);
+  // From the first row on, as a ThermalModel runs: what heated the machine before training is part of its history.
+  const std::vector<double> simulated = model.simulate(b.u, {});
+  out.predicted = atRows(series, b.all.time_s, simulated);
   out.structure["order"] = {{"na", order[0]}, {"nb", order[1]}, {"nk", order[2]}};
   out.structure["period_s"] = b.all.period_s;
   out.structure["a"] = std::vector<double>(model.a.data(), model.a.data() + model.a.size());
@@ -206,13 +209,13 @@ StructuredFit fitByArx(const TimeSeries& series, const IdentifyRequest& request,
   output.name = request.output;
   output.unit = unitOfSignal(request.output);
   std::string message;
-  output.terms = lagsOf(model, message);
+  output.terms = lagsOf(model, b.hold, message);
   if (!message.empty()) out.notes.push_back(message);
   output.offset = model.c / (1.0 + model.a.sum());
   // An interval that does not hold is none.
-  if (!output.terms.empty() && uncertainty_holds) output.covariance = lagCovariance(model);
+  if (!output.terms.empty() && uncertainty_holds) output.covariance = lagCovariance(model, b.hold);
   std::vector<double> left;
-  for (std::size_t k = 0; k < y.size(); ++k) left.push_back(y[k] - simulated[k]);
+  for (std::size_t k = 0; k < y.size(); ++k) left.push_back(y[k] - simulated[b.first + k]);
   output.noise_sigma = rootMeanSquare(left);
   out.model.kind = "arx";
   describeInputs(b, series, inputs, out.model);
@@ -225,18 +228,19 @@ StructuredFit fitByOutputError(const TimeSeries& series, const IdentifyRequest& 
                                const std::vector<std::string>& inputs) {
   StructuredFit out;
   const Bins b = makeBins(series, request, inputs, out.notes);
-  const auto part = [&](const std::vector<double>& v) {
-    return std::span<const double>(v).subspan(b.first, b.last - b.first);
-  };
+  // What heated the machine before training is part of its history.
+  const auto toEnd = [&](const std::vector<double>& v) { return std::span<const double>(v).first(b.last); };
+  const std::span<const double> time_s = toEnd(b.all.time_s);
+  const std::span<const double> y = toEnd(b.y).subspan(b.first);
   std::vector<OutputErrorInput> u;
   for (std::size_t i = 0; i < inputs.size(); ++i)
-    u.push_back({part(b.u[i]), request.order ? (*request.order)[0] : 1, b.hold[i]});
+    u.push_back({toEnd(b.u[i]), request.order ? (*request.order)[0] : 1, b.hold[i]});
   if (!request.order) {
-    const OrderChoice choice = chooseOutputErrorOrder(part(b.all.time_s), part(b.y), u);
+    const OrderChoice choice = chooseOutputErrorOrder(time_s, y, u);
     for (OutputErrorInput& input : u) input.lags = choice.best.na;
     out.structure["orders_tried"] = orderJson(choice);
   }
-  const OutputErrorResult fit = fitOutputError(part(b.all.time_s), part(b.y), u);
+  const OutputErrorResult fit = fitOutputError(time_s, y, u);
   if (fit.gains.empty()) throw InputError({series.file, ""}, fit.message);
   if (fit.status != FitStatus::Converged) {
     out.notes.push_back(fmt::format("Output error: {} ({})", toString(fit.status), fit.message));

@@ -308,6 +308,10 @@ CompensateResult compensateLog(const TimeSeries& series, const ThermalModel& mod
   std::vector<double> out(result.outputs.size());
   std::vector<std::size_t> next(inputs.size(), 0);
   std::vector<double> seen(inputs.size(), -1e300);
+  // Rows are what a log keeps of values that a controller has all the time: between two of them nothing is stale, as
+  // long as neither lacks a value and they are no further apart than rows are.
+  constexpr double rows_apart = 3.0;
+  const double longest_s = std::max(request.limits.stale_after_s, rows_apart * series.medianPeriod_s());
   for (std::size_t k = 0; k < steps; ++k) {
     const double t = series.time_s.front() + static_cast<double>(k) * result.cycle_s;
     // The controller sees the last row at or before now: its value and its age.
@@ -319,7 +323,10 @@ CompensateResult compensateLog(const TimeSeries& series, const ThermalModel& mod
         }
         ++next[i];
       }
-      age[i] = std::max(0.0, t - seen[i]);
+      const std::size_t after = std::min(next[i], series.time_s.size() - 1);
+      const bool between =
+          next[i] > 0 && seen[i] == series.time_s[next[i] - 1] && series.time_s[after] - seen[i] <= longest_s;
+      age[i] = between ? 0.0 : std::max(0.0, t - seen[i]);
     }
     const CompensatorState state = compensator.step(u.data(), age.data(), out.data());
     result.holding += state == CompensatorState::Holding;
@@ -328,6 +335,12 @@ CompensateResult compensateLog(const TimeSeries& series, const ThermalModel& mod
     for (std::size_t o = 0; o < out.size(); ++o) result.outputs[o].compensation.push_back(out[o]);
     if (k % 10000 == 0) job.report(static_cast<double>(k) / static_cast<double>(steps), "compensating");
   }
+  constexpr std::size_t per_worth_saying = 100;
+  if (result.fallback * per_worth_saying > steps)
+    result.warnings.push_back(fmt::format(
+        "In {} of {} cycles the compensation faded to zero or stood there, for an input was missing, older than {:g} s "
+        "or outside its range: what it achieves includes these.",
+        result.fallback, steps, limits.stale_after_s));
   // Times mean the same rows only in the log that the model was identified from.
   const bool same_log = sameLog(model.source, series.file);
   std::vector<char> trained(series.time_s.size(), 0);

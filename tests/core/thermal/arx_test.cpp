@@ -201,12 +201,72 @@ TEST(Arx, HasAnEquivalentInLags) {
   const auto y = secondOrder(u, random, 1e-4);
   const ArxModel m = fitArx(y, {u}, {2, {2}, {1}}, 10.0);
   std::string message;
-  const auto terms = lagsOf(m, message);
+  const auto terms = lagsOf(m, {true}, message);
   ASSERT_EQ(terms.size(), 3U) << message;
   double gain = 0.0;
   for (const LagTerm& t : terms) gain += t.gain;
   EXPECT_NEAR(gain, 0.2 / 0.05, 0.02);
   EXPECT_NEAR(terms[0].tau_s, -10.0 / std::log(0.9), 0.5);
+}
+
+/// What is shipped as lags runs as the equation does, of what holds until the next sample and of what goes straight on.
+TEST(Arx, RunsAsItsLagsDo) {
+  Random random(21);
+  std::vector<double> u = randomSteps(random, 400);
+  u.front() = 0.7;
+  std::vector<double> time_s;
+  for (std::size_t k = 0; k < u.size(); ++k) time_s.push_back(10.0 * static_cast<double>(k));
+  ArxModel m;
+  m.status = FitStatus::Converged;
+  m.period_s = 10.0;
+  m.a = (Eigen::VectorXd(2) << -1.4, 0.45).finished();
+  m.c = 0.3;
+  struct Order {
+    int nk;
+    std::vector<double> b;
+  };
+  for (const auto& [nk, b] : {Order{0, {0.2}}, Order{1, {0.3, -0.1}}, Order{2, {0.2}}, Order{0, {0.1, 0.3, -0.1}}}) {
+    m.order = {2, {static_cast<int>(b.size())}, {nk}};
+    m.b = {Eigen::Map<const Eigen::VectorXd>(b.data(), static_cast<Eigen::Index>(b.size()))};
+    const std::vector<double> run = m.simulate({u}, {});
+    for (const bool hold : {true, false}) {
+      std::string message;
+      std::vector<double> by_lags(u.size(), m.c / (1.0 + m.a.sum()));
+      const auto terms = lagsOf(m, {hold}, message);
+      ASSERT_EQ(terms.size(), 3U) << message;
+      for (const LagTerm& t : terms) {
+        const std::vector<double> x = lagFiltered(time_s, u, t.tau_s, hold);
+        for (std::size_t k = 0; k < u.size(); ++k) by_lags[k] += t.gain * x[k];
+      }
+      double apart = 0.0;
+      for (std::size_t k = 0; k < u.size(); ++k) apart = std::max(apart, std::abs(by_lags[k] - run[k]));
+      EXPECT_LT(apart, 1e-9) << nk << ' ' << b.size() << ' ' << hold;
+    }
+  }
+  // A dead time is no lag.
+  m.order = {2, {1}, {3}};
+  m.b = {Eigen::VectorXd::Constant(1, 0.2)};
+  std::string message;
+  EXPECT_TRUE(lagsOf(m, {true}, message).empty());
+  EXPECT_THAT(message, HasSubstr("dead time"));
+}
+
+TEST(Arx, AFreeRunBeginsAtRestOrAfterWhatWasMeasured) {
+  Random random(22);
+  std::vector<double> u = randomSteps(random, 300);
+  for (std::size_t k = 0; k < 20; ++k) u[k] = 1.5;  // at rest at the beginning
+  ArxModel m;
+  m.order = {2, {2}, {1}};
+  m.a = (Eigen::VectorXd(2) << -1.4, 0.45).finished();
+  m.b = {(Eigen::VectorXd(2) << 0.3, -0.1).finished()};
+  m.c = 0.5;
+  const std::vector<double> run = m.simulate({u}, {});
+  const double rest = (0.5 + 0.2 * 1.5) / 0.05;
+  for (std::size_t k = 0; k < 20; ++k) EXPECT_NEAR(run[k], rest, 1e-9);
+  // From the middle on, after its own first values: the same.
+  const std::vector<std::vector<double>> later{std::vector<double>(u.begin() + 100, u.end())};
+  const std::vector<double> again = m.simulate(later, std::span<const double>(run).subspan(100, 3));
+  for (std::size_t k = 0; k < again.size(); ++k) EXPECT_NEAR(again[k], run[100 + k], 1e-9);
 }
 
 TEST(Arx, OrderIsChosenOnDataTheFitDidNotSee) {

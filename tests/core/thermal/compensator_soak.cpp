@@ -95,6 +95,7 @@ class Soak {
       const double margin = std::max(options.range_margin * range, least);
       low_.push_back(input->train_min - margin);
       high_.push_back(input->train_max + margin);
+      size_only_.push_back(spindrift::isDriven(input->kind) ? 1 : 0);
     }
     inputs_ = middle();
     ages_.assign(low_.size(), 0.0);
@@ -154,7 +155,8 @@ class Soak {
     return out;
   }
   [[nodiscard]] bool good(std::size_t i) const {
-    return inputs_[i] >= low_[i] && inputs_[i] <= high_[i] && ages_[i] >= 0.0 && ages_[i] <= options_.stale_after_s;
+    const double acting = size_only_[i] != 0 ? std::abs(inputs_[i]) : inputs_[i];
+    return acting >= low_[i] && acting <= high_[i] && ages_[i] >= 0.0 && ages_[i] <= options_.stale_after_s;
   }
 
   /// What happens next, and for how many steps.
@@ -234,6 +236,7 @@ class Soak {
   spindrift_compensator* compensator_;
   Random& random_;
   std::vector<double> low_, high_, inputs_, ages_, bad_for_s_, last_, outputs_, sums_;
+  std::vector<char> size_only_;  // speeds and feeds
   double good_for_s_ = 0.0;
   int calm_ = 0;
   bool forced_ = false;

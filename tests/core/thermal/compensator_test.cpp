@@ -38,6 +38,60 @@ ThermalModel model() {
   return m;
 }
 
+/// Heat has no direction: a spindle that turns the other way warms all the same.
+TEST(Compensator, ASpindleThatTurnsBackwardsWarmsAsWell) {
+  for (const double rpm : {-3000.0, -500.0}) {
+    Compensator forwards;
+    Compensator backwards;
+    ASSERT_EQ(forwards.load(model(), 1.0), "");
+    ASSERT_EQ(backwards.load(model(), 1.0), "");
+    for (int k = 0; k < 900; ++k) {
+      double there = 0.0;
+      double back = 0.0;
+      const double u[2] = {k < 5 ? 0.0 : -rpm, 22.0};
+      const double v[2] = {k < 5 ? 0.0 : rpm, 22.0};
+      forwards.step(u, nullptr, &there);
+      EXPECT_EQ(backwards.step(v, nullptr, &back), CompensatorState::Running);
+      EXPECT_EQ(there, back);
+    }
+  }
+  TimeSeries series;
+  for (int k = 0; k < 50; ++k) series.time_s.push_back(60.0 * k);
+  series.signals = {{"spindle_rpm", SignalKind::Speed, std::vector<double>(50, 2000.0)},
+                    {"T_1_degC", SignalKind::Temperature, std::vector<double>(50, 22.0)}};
+  const std::vector<double> forwards = model().predict(series, 0).value;
+  for (double& v : series.signals[0].values) v = -v;
+  const ThermalPrediction backwards = model().predict(series, 0);
+  EXPECT_EQ(backwards.value, forwards);
+  EXPECT_TRUE(std::none_of(backwards.outside.begin(), backwards.outside.end(), [](char o) { return o != 0; }));
+}
+
+/// A plug that was out for two hours: what the temperature did meanwhile is behind its lags when it is back.
+TEST(Compensator, AnInputThatComesBackHasMovedInTheMeantime) {
+  const auto temperature = [](double t_s) { return 22.0 + 5.0 * (1.0 - std::exp(-t_s / 7000.0)); };
+  Compensator whole;
+  Compensator gap;
+  ASSERT_EQ(whole.load(model(), 10.0), "");
+  ASSERT_EQ(gap.load(model(), 10.0), "");
+  double worst = 0.0;
+  double without = 0.0;
+  for (int k = 0; k < 1440; ++k) {
+    const double t_s = 10.0 * k;
+    const bool out = t_s > 3000.0 && t_s < 10000.0;
+    const double u[2] = {1500.0, temperature(t_s)};
+    const double v[2] = {1500.0, out ? std::nan("") : temperature(t_s)};
+    double right = 0.0;
+    double held = 0.0;
+    whole.step(u, nullptr, &right);
+    gap.step(v, nullptr, &held);
+    if (t_s < 10100.0) continue;
+    worst = std::max(worst, std::abs(right - held));
+    without = std::max(
+        without, 4.0 * std::abs(temperature(10000.0) - temperature(3000.0)) * std::exp(-(t_s - 10000.0) / 2000.0));
+  }
+  EXPECT_LT(worst, 0.1 * without) << "um of " << without;
+}
+
 /// A loose plug: one good value in 55 cycles, each held for up to 60 s.
 TEST(Compensator, StaysInFallbackUntilNothingIsRefusedAnyMore) {
   Compensator c;

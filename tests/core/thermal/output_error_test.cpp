@@ -181,5 +181,18 @@ TEST(OutputError, RefusesConstantAndTooShortData) {
   EXPECT_THROW(static_cast<void>(fitOutputError(first(p.time), first(p.y), {{first(p.u), 2, true}})), InputError);
 }
 
+/// Training begins in the middle of a cooling: what heated the machine before is known from the inputs alone.
+TEST(OutputError, WhatHappenedBeforeTheOutputIsItsHistory) {
+  const Plant p = outputErrorPlant(77, 0.0, 0.2);
+  for (const std::size_t before : {std::size_t{0}, std::size_t{155}, std::size_t{310}}) {
+    const OutputErrorResult r = fitOutputError(p.time, std::span<const double>(p.y).subspan(before), {{p.u, 2, true}});
+    ASSERT_EQ(r.status, FitStatus::Converged) << r.message;
+    EXPECT_LT(std::abs(r.gains[0][0] + 20.0), 4.0 * r.gainSigma(0, 0)) << before;
+    EXPECT_LT(std::abs(r.taus_s[0][0] - 3600.0), 4.0 * r.tauSigma_s(0, 0)) << before;
+    EXPECT_LT(r.tauSigma_s(0, 0), 400.0) << before;
+    EXPECT_LT(r.rms, 0.22) << before;
+  }
+}
+
 }  // namespace
 }  // namespace spindrift

@@ -128,8 +128,21 @@ TEST(TimeSeries, AveragingKeepsSlowAndRemovesFastContent) {
   const TimeSeries slow = resampled(s, 60.0, 0.0);
   double worst = 0.0;
   for (std::size_t i = 1; i + 1 < slow.time_s.size(); ++i)
-    worst = std::max(worst, std::abs(slow.signals[0].values[i] - 0.001 * (slow.time_s[i] - 0.5)));
+    worst = std::max(worst, std::abs(slow.signals[0].values[i] - 0.001 * slow.time_s[i]));
   EXPECT_LT(worst, 0.012);
+}
+
+TEST(TimeSeries, WhatHoldsUntilTheNextRowActsFromItsTimeOn) {
+  // 1000 rpm from 90 s to 210 s, rows at any time; what acts from 60 to 120 s is half of it.
+  const TimeSeries s = parseTimeSeries(
+      "time_s,spindle_rpm,T_a_degC\n0,0,20\n13,0,20\n55,0,20\n90,-1000,20\n91,-1000,20\n200,-1000,20\n210,0,20\n240,0,"
+      "20\n",
+      "log.csv");
+  const TimeSeries slow = resampled(s, 60.0, 1e300);
+  const std::vector<double>& rpm = slow.at("spindle_rpm").values;
+  ASSERT_EQ(rpm.size(), 5U);
+  for (const auto& [at, value] : {std::pair{0U, 0.0}, {1U, 500.0}, {2U, 1000.0}, {3U, 500.0}, {4U, 0.0}})
+    EXPECT_NEAR(rpm[at], value, 1e-9) << at;
 }
 
 TEST(TimeSeries, MergesSparseResultsAtTheNearestRow) {
