@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "core/math/least_squares.h"
 #include "core/math/statistics.h"
@@ -128,6 +129,11 @@ RegistrationSolver::Outcome RegistrationSolver::solve(ScanMotion motion, const s
   out.free = MatrixP::Zero(n, n);
   std::vector<double> values;
   bool last = false;
+  // Steps that move nothing any more, and what rounding may leave of them: far less than any scan resolves.
+  constexpr double settled_mm = 4e-8;
+  constexpr double settled_rad = 4e-9;
+  constexpr double by_rounding_at_most = 250.0;
+  double moved_before = std::numeric_limits<double>::infinity();
   for (out.iterations = 0;; ++out.iterations) {
     residuals(motion, cells, out.cells, change);
     out.overlap = static_cast<double>(out.cells.size()) / static_cast<double>(std::max<std::size_t>(cells.size(), 1));
@@ -189,7 +195,11 @@ RegistrationSolver::Outcome RegistrationSolver::solve(ScanMotion motion, const s
     motion.shift += step.head<3>();
     motion.rotation = rotationOf(step.segment<3>(3)) * motion.rotation;
     for (int k = 0; k < motion.drift_order; ++k) motion.drift.col(k) += step.segment<3>(6 + 3 * k);
-    const bool settled = step.head<3>().norm() < 2e-8 && step.segment<3>(3).norm() < 2e-9;
+    const double moved = step.head<3>().norm() / settled_mm + step.segment<3>(3).norm() / settled_rad;
+    // Where two scans agree to the last digit, cells at the edge come and go with rounding and steps become no smaller.
+    const bool by_rounding = moved < by_rounding_at_most && moved > 0.5 * moved_before;
+    const bool settled = moved < 1.0 || by_rounding;
+    moved_before = moved;
     if (settled) out.converged = true;
     if (settled || out.iterations + 1 >= iterations) last = true;
   }
@@ -311,12 +321,70 @@ RegistrationNoise registrationNoise(const RegistrationSolver::Outcome& outcome, 
   }
   if (count < 12.0) return noise;
   // Variance of one cell: what the cut took away and the six parameters are given back.
-  const double variance = sum / std::max(count - 6.0, 1.0) / 0.99387;
+  double variance = sum / std::max(count - 6.0, 1.0) / 0.99387;
   const double kx = phase_x / count, ky = phase_y / count;
   // Share of the two scans: the target's noise is smoothed by its spline (factor kx ky), which spreads it without
   // removing it: in the long run every node counts once.
   const double a = source.noise_mm * source.noise_mm, b = target.noise_mm * target.noise_mm;
   const double interpolated = (a + b) / (a + kx * ky * b);
+
+  // Rows of cells share the errors of their profiles: height, tilt, position along x. Together, for a row tells them
+  // apart only as far as the surface lets it.
+  const int n = outcome.motion.parameters();
+  struct Row {
+    Eigen::Matrix3d xx = Eigen::Matrix3d::Zero();
+    Eigen::Vector3d xr = Eigen::Vector3d::Zero();
+    std::array<VectorP, 3> xj;
+    double count = 0.0;
+    double steepness = 0.0;  ///< mean of (dz/dy)^2: what an error of the profile's position along y does to its height
+    bool told = false;
+    Eigen::Vector3d error = Eigen::Vector3d::Zero();
+    Eigen::Matrix3d inverse = Eigen::Matrix3d::Zero();
+  };
+  const auto basisOf = [&](const CellResidual& c) {
+    return Eigen::Vector3d(1.0, source.cells[c.cell].mean.x() - source.centroid_mm.x(), -c.jacobian[0]);
+  };
+  std::vector<Row> rows(static_cast<std::size_t>(source.rows));
+  for (Row& row : rows) row.xj.fill(VectorP::Zero(n));
+  for (const CellResidual& c : outcome.cells) {
+    if (c.robust <= 0.0) continue;
+    Row& row = rows[c.cell / static_cast<std::uint32_t>(source.columns)];
+    const Eigen::Vector3d basis = basisOf(c);
+    const double w = c.weight * c.robust;
+    row.count += 1.0;
+    row.steepness += c.jacobian[1] * c.jacobian[1];
+    const VectorP jacobian = c.row(n);
+    row.xx += w * basis * basis.transpose();
+    row.xr += w * c.residual * basis;
+    for (int i = 0; i < 3; ++i) row.xj[static_cast<std::size_t>(i)] += w * basis[i] * jacobian;
+  }
+  double told = 0.0;
+  for (Row& row : rows) {
+    constexpr double least_cells = 8.0;
+    if (row.count < least_cells || !(row.xx.diagonal().minCoeff() > 0.0)) continue;
+    const Eigen::Vector3d size = row.xx.diagonal().cwiseSqrt();
+    const Eigen::Matrix3d scaled = size.cwiseInverse().asDiagonal() * row.xx * size.cwiseInverse().asDiagonal();
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(scaled);
+    constexpr double collinear = 1e-6;
+    if (!(eigen.eigenvalues()[0] > collinear)) continue;
+    row.inverse = size.cwiseInverse().asDiagonal() * scaled.inverse() * size.cwiseInverse().asDiagonal();
+    row.error = row.inverse * row.xr;
+    row.steepness /= row.count;
+    row.told = true;
+    told += 1.0;
+  }
+  // What of the residuals is no error of a whole profile.
+  double within = 0.0;
+  double counted = 0.0;
+  for (const CellResidual& c : outcome.cells) {
+    const std::size_t at = c.cell / static_cast<std::uint32_t>(source.columns);
+    if (!(field[c.cell] == field[c.cell]) || !rows[at].told) continue;
+    field[c.cell] -= static_cast<float>(rows[at].error.dot(basisOf(c)) * std::sqrt(c.weight));
+    within += static_cast<double>(field[c.cell]) * static_cast<double>(field[c.cell]);
+    counted += 1.0;
+  }
+  const double per_row = told > 0.0 ? counted / told : 0.0;
+  if (told > 0.0) variance = within / std::max(counted - 3.0 * told - 6.0, 1.0) / 0.99387;
 
   // Autocovariance over neighbouring cells, less what the spline makes of white noise in the target.
   constexpr int reach = 2;
@@ -337,7 +405,9 @@ RegistrationNoise registrationNoise(const RegistrationSolver::Outcome& outcome, 
         }
       }
       if (pairs < 8.0) continue;
-      measured += 2.0 * product / pairs;
+      // In its own row a cell lost something of all others to the three errors of the row.
+      const double lost = dr == 0 && per_row > 0.0 ? 3.0 / per_row * variance : 0.0;
+      measured += 2.0 * (product / pairs + lost);
       lags += 1.0;
       pairs_sum += pairs;
     }
@@ -357,8 +427,7 @@ RegistrationNoise registrationNoise(const RegistrationSolver::Outcome& outcome, 
   noise.misfit_ratio = std::sqrt(variance * interpolated / white);
   noise.unit_variance = long_run;
 
-  // Sums of squared scores: rows of cells share the errors of their profiles (height, tilt, position along x).
-  const int n = outcome.motion.parameters();
+  // Sums of squared scores.
   MatrixP scores = MatrixP::Zero(n, n);
   for (const CellResidual& c : outcome.cells) {
     const double w = c.weight * c.robust * c.robust;
@@ -386,38 +455,16 @@ RegistrationNoise registrationNoise(const RegistrationSolver::Outcome& outcome, 
   }
   const double efficiency = (psi2 / (slope * slope)) / (variance * robust2 / (robust * robust));
   MatrixP middle = long_run * std::clamp(efficiency, 1.0, 1.5) * scores;
-  struct Row {
-    std::array<double, 3> xx{}, xr{};
-    std::array<VectorP, 3> xj;
-    double count = 0.0;
-    double steepness = 0.0;  ///< mean of (dz/dy)^2: what an error of the profile's position along y does to its height
-  };
-  std::vector<Row> rows(static_cast<std::size_t>(source.rows));
-  for (Row& row : rows) row.xj.fill(VectorP::Zero(n));
-  for (const CellResidual& c : outcome.cells) {
-    if (c.robust <= 0.0) continue;
-    Row& row = rows[c.cell / static_cast<std::uint32_t>(source.columns)];
-    const std::array<double, 3> basis{1.0, source.cells[c.cell].mean.x() - source.centroid_mm.x(), -c.jacobian[0]};
-    const double w = c.weight * c.robust;
-    row.count += 1.0;
-    row.steepness += c.jacobian[1] * c.jacobian[1];
-    const VectorP jacobian = c.row(n);
-    for (std::size_t i = 0; i < 3; ++i) {
-      row.xx[i] += w * basis[i] * basis[i];
-      row.xr[i] += w * basis[i] * c.residual;
-      row.xj[i] += w * basis[i] * jacobian;
-    }
-  }
   for (std::size_t i = 0; i < 3; ++i) {
     double excess = 0.0, expected = 0.0, used = 0.0;
     std::vector<std::pair<double, double>> by_steepness;  // (dz/dy)^2 of the row, excess of its square
-    for (Row& row : rows) {
-      if (i == 0 && row.count > 0.0) row.steepness /= row.count;
-      if (row.count < 8.0 || row.xx[i] <= 0.0) continue;
-      const double estimate = row.xr[i] / row.xx[i];
+    for (const Row& row : rows) {
+      if (!row.told) continue;
+      const auto k = static_cast<Eigen::Index>(i);
+      const double estimate = row.error[k];
       excess += estimate * estimate;
       // Across rows the spline smooths the target's part.
-      const double white_part = long_run * (a + ky * b) / (a + b) / row.xx[i];
+      const double white_part = long_run * (a + ky * b) / (a + b) * row.inverse(k, k);
       expected += white_part;
       used += 1.0;
       by_steepness.emplace_back(row.steepness, estimate * estimate - white_part);
@@ -433,7 +480,7 @@ RegistrationNoise registrationNoise(const RegistrationSolver::Outcome& outcome, 
     double mean_steepness = 0.0;
     for (const auto& [steepness, square] : by_steepness) mean_steepness += steepness / used;
     for (const Row& row : rows) {
-      if (row.count < 1.0) continue;
+      if (!row.told) continue;
       const double own = share > 0.0 ? 1.0 - share + share * row.steepness / mean_steepness : 1.0;
       middle.noalias() += own * row_variance * row.xj[i] * row.xj[i].transpose();
     }
