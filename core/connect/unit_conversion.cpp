@@ -33,6 +33,8 @@ constexpr std::array units{Unit{"celsius", Dimension::Temperature, 1.0},
                            Unit{"mm", Dimension::Length, 1.0},
                            Unit{"micrometer", Dimension::Length, 1e-3},
                            Unit{"um", Dimension::Length, 1e-3},
+                           Unit{"nanometer", Dimension::Length, 1e-6},
+                           Unit{"nm", Dimension::Length, 1e-6},
                            Unit{"meter", Dimension::Length, 1e3},
                            Unit{"m", Dimension::Length, 1e3},
                            Unit{"inch", Dimension::Length, 25.4},
@@ -40,6 +42,7 @@ constexpr std::array units{Unit{"celsius", Dimension::Temperature, 1.0},
                            Unit{"radian", Dimension::Angle, 1.0},
                            Unit{"rad", Dimension::Angle, 1.0},
                            Unit{"urad", Dimension::Angle, 1e-6},
+                           Unit{"mrad", Dimension::Angle, 1e-3},
                            Unit{"degree", Dimension::Angle, pi / 180.0},
                            Unit{"deg", Dimension::Angle, pi / 180.0},
                            Unit{"revolution/minute", Dimension::Rotation, 1.0},
@@ -52,6 +55,8 @@ constexpr std::array units{Unit{"celsius", Dimension::Temperature, 1.0},
                            Unit{"millimeter/minute", Dimension::Speed, 1.0},
                            Unit{"mm/min", Dimension::Speed, 1.0},
                            Unit{"mm_min", Dimension::Speed, 1.0},
+                           Unit{"m/min", Dimension::Speed, 1e3},
+                           Unit{"m_min", Dimension::Speed, 1e3},
                            Unit{"inch/minute", Dimension::Speed, 25.4},
                            Unit{"inch/second", Dimension::Speed, 1524.0},
                            Unit{"percent", Dimension::Ratio, 0.01},
@@ -78,7 +83,8 @@ const Unit* find(std::string_view text) {
 }  // namespace
 
 std::string unitOfColumn(std::string_view column) {
-  for (const std::string_view unit : {"mm_min", "degC", "urad", "rpm", "mm", "um", "deg", "percent", "kW", "W", "A"}) {
+  for (const std::string_view unit : {"mm_min", "m_min", "degC", "degF", "K", "urad", "mrad", "rpm", "mm", "um", "nm",
+                                      "deg", "percent", "kW", "W", "A"}) {
     if (column.size() > unit.size() + 1 && column.ends_with(unit) && column[column.size() - unit.size() - 1] == '_')
       return std::string(unit);
   }

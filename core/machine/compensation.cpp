@@ -154,6 +154,19 @@ AxisComponentTable axisComponentsAt(const ErrorModel& model, const MachineDescri
     table.deviation.push_back(deviation);
     table.sigma.push_back(sigma);
   }
+  // A control goes straight from position to position: one beyond the travel has what makes it right at its end.
+  const std::size_t count = position_mm.size();
+  const auto extend = [&](std::size_t outer, std::size_t inner, double end_mm) {
+    const double reach = end_mm - position_mm[inner];
+    if (reach == 0.0) return;
+    const double further = (position_mm[outer] - position_mm[inner]) / reach;
+    for (std::size_t i = 0; i < 6; ++i)
+      table.deviation[outer][i] =
+          table.deviation[inner][i] + further * (table.deviation[outer][i] - table.deviation[inner][i]);
+  };
+  if (count < 2) return table;
+  if (position_mm.front() < description.travel_mm[0]) extend(0, 1, description.travel_mm[0]);
+  if (position_mm.back() > description.travel_mm[1]) extend(count - 1, count - 2, description.travel_mm[1]);
   return table;
 }
 

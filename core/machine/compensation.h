@@ -89,7 +89,8 @@ struct AxisComponentTable {
 [[nodiscard]] AxisComponentTable axisComponents(const ErrorModel& model, const MachineDescription& machine,
                                                 const std::string& axis, const Eigen::Vector3d& reference_mm, int count,
                                                 const DeviationQuery& conditions);
-/// The same at positions along the axis, which may lie beyond its travel: there the value at its end holds.
+/// The same at positions along the axis, which may lie beyond its travel: the first and the last have there
+/// what makes a straight line to their neighbour right at the end of the travel.
 [[nodiscard]] AxisComponentTable axisComponentsAt(const ErrorModel& model, const MachineDescription& machine,
                                                   const std::string& axis, const Eigen::Vector3d& reference_mm,
                                                   const std::vector<double>& position_mm,

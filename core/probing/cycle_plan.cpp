@@ -26,6 +26,11 @@ void CyclePlanOptions::validate() const {
   };
   feed(touch_feed_mm_min, "touch_feed_mm_min", most_touch_feed_mm_min);
   feed(guarded_feed_mm_min, "guarded_feed_mm_min", most_guarded_feed_mm_min);
+  if (!(surface_offset_mm > 0.0 && surface_offset_mm <= most_surface_offset_mm))
+    throw InputError(fmt::format("surface_offset_mm {} is not allowed; allowed: greater than zero, at most {:g}.",
+                                 surface_offset_mm, most_surface_offset_mm));
+  if (!first_ball_mm.allFinite())
+    throw InputError("first_ball_mm is not a place; allowed: three finite numbers in mm.");
   if (retract_mm < clearance_mm) throw InputError("retract_mm must not be smaller than clearance_mm.");
 }
 
@@ -73,7 +78,7 @@ class Planner {
       if (axis == nullptr) continue;
       const double low = std::min(axis->travel_mm[0], axis->travel_mm[1]);
       const double high = std::max(axis->travel_mm[0], axis->travel_mm[1]);
-      if (reference(k) < low || reference(k) > high) {
+      if (!(reference(k) >= low && reference(k) <= high)) {
         throw InputError({machine_.file, ""},
                          fmt::format("the cycle would send {} to {:.3f} mm ({}stylus {} at {}°); allowed: {} to {} "
                                      "mm.",

@@ -36,6 +36,7 @@ struct CyclePlanOptions {
   static constexpr double least_feed_mm_min = 1.0;
   static constexpr double most_touch_feed_mm_min = 3000.0;
   static constexpr double most_guarded_feed_mm_min = 20000.0;
+  static constexpr double most_surface_offset_mm = 1000.0;
 
   double clearance_mm = 5.0;       ///< free distance kept around material by all moves that are no touches
   double retract_mm = 30.0;        ///< safe height above the highest material

@@ -145,6 +145,11 @@ TEST(Connections, UnitsBecomeThoseOfTheColumn) {
   EXPECT_NEAR(at("probe_um", "inch", 1e-3), 25.4, 1e-9);
   EXPECT_NEAR(at("tilt_urad", "DEGREE", 1.0), 17453.2925, 1e-3);
   EXPECT_NEAR(at("speed_c_rpm", "REVOLUTION/SECOND", 2.0), 120.0, 1e-9);
+  EXPECT_NEAR(at("T_a_degF", "CELSIUS", 100.0), 212.0, 1e-9);
+  EXPECT_NEAR(at("T_head_K", "CELSIUS", 25.0), 298.15, 1e-9);
+  EXPECT_NEAR(at("probe_nm", "MICROMETER", 0.3), 300.0, 1e-9);
+  EXPECT_NEAR(at("tilt_mrad", "urad", 300.0), 0.3, 1e-9);
+  EXPECT_NEAR(at("feed_x_m_min", "MILLIMETER/MINUTE", 300.0), 0.3, 1e-9);
   EXPECT_EQ(at("whatever", "CELSIUS", 3.0), 3.0);
   EXPECT_EQ(at("pos_x_mm", "CELSIUS", 3.0), -1e9);
   EXPECT_EQ(unitOfColumn("feed_x_mm_min"), "mm_min");

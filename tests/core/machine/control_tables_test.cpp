@@ -122,6 +122,29 @@ AxisComponentTable pitchOf(const FanucPoints& points) {
   return axisComponentsAt(KnownMachine(), knownMill(), "X", reference_mm, points.position_mm(), {});
 }
 
+/// A control goes straight from point to point, also over the end of the travel, which is no point.
+TEST(ControlTables, FanucIsRightUpToTheEndsOfTheTravel) {
+  class Straight final : public ErrorModel {
+   public:
+    [[nodiscard]] std::string description() const override { return "straight"; }
+    [[nodiscard]] PredictedComponent predict(const DeviationQuery& query, Component component) const override {
+      return {component == Component::EX ? 0.04 * query.position_mm.x() : 0.0, 0.1};
+    }
+  };
+  const LinearAxis axis = *knownMill().findAxis("X");
+  for (const int count : {2, 4, 6, 10}) {
+    const FanucPoints points = FanucPoints::over(axis, count, 0);
+    ASSERT_TRUE(points.position_mm().front() < axis.travel_mm[0] || points.position_mm().back() > axis.travel_mm[1]);
+    const AxisComponentTable table =
+        axisComponentsAt(Straight(), knownMill(), "X", reference_mm, points.position_mm(), {});
+    const ControlTable curve =
+        readFanucPitchError(fanucPitchError(table, points, FanucStep::Positive, 0.1), "fanuc_X.nc");
+    for (double x = axis.travel_mm[0]; x <= axis.travel_mm[1]; x += 1.0)
+      EXPECT_NEAR(curve.movementAt(x) - curve.movementAt(reference_mm.x()), -4e-5 * (x - reference_mm.x()), 1.1e-4)
+          << count << ' ' << x;
+  }
+}
+
 // B-63980EN, p. 99 and 100: stroke -400 to 800 mm, interval 50 mm, reference position 40: points 33 to 56.
 TEST(ControlTables, FanucNumbersAreThoseOfTheManualsExample) {
   LinearAxis axis;

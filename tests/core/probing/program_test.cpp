@@ -253,6 +253,19 @@ TEST(CyclePlan, AFeedThatBreaksTheProbeIsRefused) {
 }
 
 /// The tip stands 60 mm below the spindle reference: no deeper than that goes the spindle into the bar.
+TEST(CyclePlan, WhatIsNoPlaceIsRefused) {
+  for (const double value : {std::nan(""), -1.0, 0.0, 1e6}) {
+    CyclePlanOptions options;
+    options.surface_offset_mm = value;
+    EXPECT_THROW(options.validate(), InputError) << value;
+  }
+  CyclePlanOptions options;
+  options.first_ball_mm.y() = std::nan("");
+  EXPECT_THROW(options.validate(), InputError);
+  options.first_ball_mm.y() = 100.0;
+  EXPECT_NO_THROW(options.validate());
+}
+
 TEST(CycleProgram, TheSpindleStaysAboveTheBar) {
   MachineDescription m = machineFrom(holeMachineText());
   const Artefact& artefact = m.artefacts.front();
