@@ -86,7 +86,8 @@ std::string driverWord(std::string_view word, const TextTranslation& translation
     if (subject && with_subject && s.driver_end.empty() && subject->size() != 1) subject.reset();
     if (!subject) subject = between(name, s.column_begin, s.column_end, with_subject);
     if (!subject) continue;
-    text = filled(translation ? translation(s.as_driver) : std::string(s.as_driver), *subject);
+    const std::string place = translation && subject->size() > 1 ? translation(words(*subject)) : std::string(*subject);
+    text = filled(translation ? translation(s.as_driver) : std::string(s.as_driver), place);
     break;
   }
   if (text.empty()) text = signalTitle(name).name;

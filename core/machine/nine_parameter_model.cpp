@@ -385,10 +385,9 @@ StateDifferences differencesFromReference(const ObservationSet& set, const std::
   }
   if (from_another_side > 0) {
     change.warnings.push_back(fmt::format(
-        "{} of {} {} compared with readings of {} that were approached from another side: the reversal error counts as "
-        "a change in them.",
-        from_another_side, countOf(change.rows.size(), "value"), from_another_side == 1 ? "is" : "are",
-        change.reference));
+        "Compared with readings of {} that were approached from another side: {} of {}. The reversal error counts as a "
+        "change in them.",
+        change.reference, from_another_side, countOf(change.rows.size(), "value")));
   }
   if (!without_reference.empty()) {
     change.warnings.push_back(fmt::format("{} was not measured in the reference state {} and is left out.",

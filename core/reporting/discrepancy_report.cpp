@@ -126,12 +126,16 @@ void addEffect(Report& document, const FoundEffect& effect, bool user_adds, bool
                                                                 : effect.forced ? " (added to the model)"
                                                                                 : " (proposed)"));
   document.paragraph(effect.physics);
-  document.paragraph(fmt::format(
-      "Driven by {}. Probability that {} {}; gain in BIC {:.0f}; rms on {} {:.2f} µm before, {:.2f} µm "
-      "after.",
-      driversInWords(effect.drivers), effect.rivals.empty() ? "the name is right" : "it or one of its rivals is right",
-      percentText(effect.confidence), effect.delta_bic, held_out ? "held-out data" : "blocks left out in turn",
-      effect.heldout_rms_before_um, effect.heldout_rms_after_um));
+  document.paragraph(fmt::format("Driven by {}.", driversInWords(effect.drivers)));
+  document.paragraph(
+      effect.rivals.empty()
+          ? fmt::format("Probability that the name is right: {}.", percentText(effect.confidence))
+          : fmt::format("Probability that it or one of its rivals is right: {}.", percentText(effect.confidence)));
+  document.paragraph(
+      held_out ? fmt::format("Gain in BIC {:.0f}; rms on held-out data {:.2f} µm before, {:.2f} µm after.",
+                             effect.delta_bic, effect.heldout_rms_before_um, effect.heldout_rms_after_um)
+               : fmt::format("Gain in BIC {:.0f}; rms on blocks left out in turn {:.2f} µm before, {:.2f} µm after.",
+                             effect.delta_bic, effect.heldout_rms_before_um, effect.heldout_rms_after_um));
   if (!effect.rivals.empty()) {
     document.callout(CalloutKind::Attention, withEffectTitles(fmt::format("These data cannot distinguish it from {}.",
                                                                           joinedList(effect.rivals, "or"))));

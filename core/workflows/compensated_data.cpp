@@ -10,9 +10,8 @@ namespace {
 
 std::string sentence(std::size_t out, std::size_t all, const char* what) {
   return fmt::format(
-      "{} of {} {} were taken while the control was compensating (compensation_on = 1) and are left out: they show "
-      "what "
-      "the compensation leaves, not the error.",
+      "Taken while the control was compensating (compensation_on = 1) and left out: {} of {} {}. They show what the "
+      "compensation leaves, not the error.",
       out, all, what);
 }
 

@@ -188,8 +188,8 @@ void rejectSameData(const ObservationSet& after, VerifyResult& result) {
                                  all));
   }
   if (equal < telling_values && equal < all) return;
-  result.notes.push_back(fmt::format("{} of {} {} the same as before to the last digit: is it the same measurement?",
-                                     equal, countOf(all, "value"), equal == 1 ? "is" : "are"));
+  result.notes.push_back(fmt::format("The same as before to the last digit: {} of {}. Is it the same measurement?",
+                                     equal, countOf(all, "value")));
 }
 
 nlohmann::json figuresJson(const VerifyFigures& f) {
@@ -386,14 +386,14 @@ VerifyResult verifyCompensation(const ObservationSet& before, const ObservationS
   }
   if (missing > 0) {
     result.notes.push_back(fmt::format(
-        "{} of points and components {} not measured alike before and after; only what both have is compared.",
-        countOf(missing, "series", "series"), missing == 1 ? "is" : "are"));
+        "Not measured alike before and after: {} of points and components. Only what both have is compared.",
+        countOf(missing, "series", "series")));
   }
   if (other_side > 0) {
     result.notes.push_back(fmt::format(
-        "{} of {} {} compared with readings that were approached from another side: the reversal error counts as a "
+        "Compared with readings that were approached from another side: {} of {}. The reversal error counts as a "
         "change in them.",
-        other_side, countOf(result.points.size(), "value"), other_side == 1 ? "is" : "are"));
+        other_side, countOf(result.points.size(), "value")));
   }
   rejectSameData(after, result);
   for (int c = 0; c < 6; ++c) {
@@ -445,8 +445,8 @@ VerifyResult verifyCampaigns(const Campaign& before, const ObservationSet& befor
                        "was measured with the compensation on.");
     }
     if (off > 0)
-      notes.push_back(fmt::format("After: {} of {} {} taken without compensation and left out.", off,
-                                  countOf(on + off, "observation"), off == 1 ? "was" : "were"));
+      notes.push_back(fmt::format("After, taken without compensation and left out: {} of {}.", off,
+                                  countOf(on + off, "observation")));
   } else {
     notes.push_back(
         "After: no column compensation_on in the log: nothing but the operator's word says that the control was "

@@ -2939,10 +2939,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Nachher: keine Spalte compensation_on im Protokoll: nur das Wort des Bedieners sagt, dass die Steuerung kompensierte.</translation>
     </message>
     <message>
-        <source>After: {} of {} {} taken without compensation and left out.</source>
-        <translation>Nachher: {} von {} {} ohne Kompensation aufgenommen und ausgelassen.</translation>
-    </message>
-    <message>
         <source>ahead of</source>
         <translation>vor</translation>
     </message>
@@ -7107,10 +7103,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>{:.0f} % der Pixel sind überbelichtet: Beleuchtung verringern.</translation>
     </message>
     <message>
-        <source>{:.0f} % of the readings of {} lie more than {:.0f} times as far off as the others: too many to be down-weighted; check how they were taken before you rely on a named effect.</source>
-        <translation>{:.0f} % der Messwerte von {} liegen mehr als {:.0f}-mal so weit entfernt wie die übrigen: zu viele, um sie geringer zu gewichten; ihre Entstehung prüfen, bevor man sich auf einen benannten Effekt verlässt.</translation>
-    </message>
-    <message>
         <source>{:.0f} % of the surface does not agree with the reference (something lay in the way?) and was left out.</source>
         <translation>{:.0f} % der Fläche stimmen nicht mit der Referenz überein (lag etwas im Weg?) und wurden ausgelassen.</translation>
     </message>
@@ -7679,10 +7671,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>{} des Punkts {} ist {:g} mm, der Verfahrweg {:g} bis {:g} mm</translation>
     </message>
     <message>
-        <source>{} of points and components {} not measured alike before and after; only what both have is compared.</source>
-        <translation>{} der Punkte und Komponenten {} vorher und nachher nicht gleich gemessen; verglichen wird nur, was beide haben.</translation>
-    </message>
-    <message>
         <source>{} of state {}</source>
         <translation>{} von Zustand {}</translation>
     </message>
@@ -7741,14 +7729,6 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>{} of {} {}</source>
         <translation>{} von {} {}</translation>
-    </message>
-    <message>
-        <source>{} of {} {} the same as before to the last digit: is it the same measurement?</source>
-        <translation>{} von {} {} bis zur letzten Stelle wie zuvor: ist es dieselbe Messung?</translation>
-    </message>
-    <message>
-        <source>{} of {} {} were taken while the control was compensating (compensation_on = 1) and are left out: they show what the compensation leaves, not the error.</source>
-        <translation>{} von {} {} entstanden, während die Steuerung kompensierte (compensation_on = 1), und werden ausgelassen: sie zeigen, was die Kompensation übrig lässt, nicht die Abweichung.</translation>
     </message>
     <message>
         <source>{} of {}{}</source>
@@ -10513,10 +10493,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Achse {}, bis {}</translation>
     </message>
     <message>
-        <source>blocks left out in turn</source>
-        <translation>reihum ausgelassenen Blöcken</translation>
-    </message>
-    <message>
         <source>cannot be read</source>
         <translation>nicht lesbar</translation>
     </message>
@@ -10561,10 +10537,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Validierungsdaten</translation>
     </message>
     <message>
-        <source>held-out data</source>
-        <translation>Validierungsdaten</translation>
-    </message>
-    <message>
         <source>holds what is named as a special case</source>
         <translation>enthält das Benannte als Sonderfall</translation>
     </message>
@@ -10575,10 +10547,6 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>hollow point: not fitted</source>
         <translation>hohler Punkt: nicht angepasst</translation>
-    </message>
-    <message>
-        <source>it or one of its rivals is right</source>
-        <translation>er oder eine konkurrierende Erklärung stimmt</translation>
     </message>
     <message>
         <source>its first reading</source>
@@ -10683,10 +10651,6 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>temperature / °C</source>
         <translation>Temperatur / °C</translation>
-    </message>
-    <message>
-        <source>the name is right</source>
-        <translation>der Name stimmt</translation>
     </message>
     <message>
         <source>the picture could not be drawn: {}.</source>
@@ -11577,10 +11541,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Ergebnisse werden gelesen</translation>
     </message>
     <message>
-        <source>Driven by {}. Probability that {} {}; gain in BIC {:.0f}; rms on {} {:.2f} µm before, {:.2f} µm after.</source>
-        <translation>Angetrieben von: {}. Wahrscheinlichkeit, dass {}: {}; Gewinn in BIC {:.0f}; rms an {}: {:.2f} µm vorher, {:.2f} µm nachher.</translation>
-    </message>
-    <message>
         <source>The most probable effects: of what is named its confidence, of the others the probability that each is among what is missing, before rivals and the remainder are weighed</source>
         <translation>Die wahrscheinlichsten Effekte: von dem, was benannt ist, die Konfidenz, von den anderen die Wahrscheinlichkeit, dass sie zu dem gehören, was fehlt, bevor konkurrierende Erklärungen und der Rest abgewogen sind</translation>
     </message>
@@ -11953,12 +11913,68 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Spanne in 60 min</translation>
     </message>
     <message>
-        <source>{} of {} {} compared with readings of {} that were approached from another side: the reversal error counts as a change in them.</source>
-        <translation>{} von {} {} mit Messwerten von {} verglichen, die von einer anderen Seite angefahren wurden: Die Umkehrspanne zählt in ihnen als Änderung.</translation>
+        <source>{:.0f} % of the readings of {} lie more than {:.0f} times as far off as the others and have hardly any weight: check how they were taken before you rely on a named effect.</source>
+        <translation>{:.0f} % der Messwerte von {} liegen mehr als {:.0f}-mal so weit entfernt wie die übrigen und haben kaum Gewicht: ihre Entstehung prüfen, bevor man sich auf einen benannten Effekt verlässt.</translation>
     </message>
     <message>
-        <source>{} of {} {} compared with readings that were approached from another side: the reversal error counts as a change in them.</source>
-        <translation>{} von {} {} mit Messwerten verglichen, die von einer anderen Seite angefahren wurden: Die Umkehrspanne zählt in ihnen als Änderung.</translation>
+        <source>first_ball_mm is not a place; allowed: three finite numbers in mm.</source>
+        <translation>first_ball_mm ist kein Ort; zulässig: drei endliche Zahlen in mm.</translation>
+    </message>
+    <message>
+        <source>surface_offset_mm {} is not allowed; allowed: greater than zero, at most {:g}.</source>
+        <translation>surface_offset_mm {} ist unzulässig; zulässig: größer als null, höchstens {:g}.</translation>
+    </message>
+    <message>
+        <source>the model has a dead time or more coefficients of an input than poles (nk + nb - 1 &gt; na), so it has no equivalent in first-order time constants; use a lower order, or the response or output-error method, for a compensator.</source>
+        <translation>das Modell hat eine Totzeit oder mehr Koeffizienten eines Eingangs als Pole (nk + nb - 1 &gt; na) und deshalb keine Entsprechung in Zeitkonstanten erster Ordnung; für einen Kompensator eine niedrigere Ordnung oder das Verfahren response oder Ausgangsfehler verwenden.</translation>
+    </message>
+    <message>
+        <source>In {} of {} cycles the compensation faded to zero or stood there, for an input was missing, older than {:g} s or outside its range: what it achieves includes these.</source>
+        <translation>In {} von {} Takten ging die Kompensation auf null zurück oder stand dort, weil ein Eingang fehlte, älter als {:g} s war oder außerhalb seines Bereichs lag: was sie erreicht, schließt diese ein.</translation>
+    </message>
+    <message>
+        <source>Compared with readings of {} that were approached from another side: {} of {}. The reversal error counts as a change in them.</source>
+        <translation>Mit Messwerten von {} verglichen, die von einer anderen Seite angefahren wurden: {} von {}. Die Umkehrspanne zählt darin als Änderung.</translation>
+    </message>
+    <message>
+        <source>Driven by {}.</source>
+        <translation>Angetrieben von: {}.</translation>
+    </message>
+    <message>
+        <source>Gain in BIC {:.0f}; rms on blocks left out in turn {:.2f} µm before, {:.2f} µm after.</source>
+        <translation>Gewinn in BIC {:.0f}; rms an nacheinander ausgelassenen Blöcken {:.2f} µm vorher, {:.2f} µm nachher.</translation>
+    </message>
+    <message>
+        <source>Gain in BIC {:.0f}; rms on held-out data {:.2f} µm before, {:.2f} µm after.</source>
+        <translation>Gewinn in BIC {:.0f}; rms an Validierungsdaten {:.2f} µm vorher, {:.2f} µm nachher.</translation>
+    </message>
+    <message>
+        <source>Probability that it or one of its rivals is right: {}.</source>
+        <translation>Wahrscheinlichkeit, dass er oder eine seiner konkurrierenden Erklärungen stimmt: {}.</translation>
+    </message>
+    <message>
+        <source>Probability that the name is right: {}.</source>
+        <translation>Wahrscheinlichkeit, dass der Name stimmt: {}.</translation>
+    </message>
+    <message>
+        <source>After, taken without compensation and left out: {} of {}.</source>
+        <translation>Nachher, ohne Kompensation aufgenommen und ausgelassen: {} von {}.</translation>
+    </message>
+    <message>
+        <source>Compared with readings that were approached from another side: {} of {}. The reversal error counts as a change in them.</source>
+        <translation>Mit Messwerten verglichen, die von einer anderen Seite angefahren wurden: {} von {}. Die Umkehrspanne zählt darin als Änderung.</translation>
+    </message>
+    <message>
+        <source>Not measured alike before and after: {} of points and components. Only what both have is compared.</source>
+        <translation>Vorher und nachher nicht gleich gemessen: {} von Punkten und Komponenten. Verglichen wird nur, was beide haben.</translation>
+    </message>
+    <message>
+        <source>Taken while the control was compensating (compensation_on = 1) and left out: {} of {} {}. They show what the compensation leaves, not the error.</source>
+        <translation>Aufgenommen, während die Steuerung kompensierte (compensation_on = 1), und ausgelassen: {} von {} {}. Sie zeigen, was die Kompensation übrig lässt, nicht die Abweichung.</translation>
+    </message>
+    <message>
+        <source>The same as before to the last digit: {} of {}. Is it the same measurement?</source>
+        <translation>Bis zur letzten Stelle wie vorher: {} von {}. Ist es dieselbe Messung?</translation>
     </message>
 </context>
 <context>
@@ -20085,10 +20101,6 @@ ihrem Ordner und führen nicht hinaus.
         <translation>%1 → %2</translation>
     </message>
     <message>
-        <source>fit %1 %</source>
-        <translation>Anpassungsgüte %1 %</translation>
-    </message>
-    <message>
         <source>rms before, after and noise floor</source>
         <translation>rms vorher, nachher und Grundrauschen</translation>
     </message>
@@ -20117,12 +20129,16 @@ ihrem Ordner und führen nicht hinaus.
         <translation>Grundrauschen %1</translation>
     </message>
     <message>
-        <source>p2p %1 %2</source>
+        <source>peak-to-peak %1 %2</source>
         <translation>Spitze-Spitze %1 %2</translation>
     </message>
     <message>
-        <source>rms: of the residuals of all observations. p2p: the largest peak-to-peak of the residual of one series. fit: 100 % is perfect, 0 % no better than a constant for each series.</source>
-        <translation>rms: der Residuen aller Beobachtungen. Spitze-Spitze: größter Wert des Residuums einer Reihe. Anpassungsgüte: 100 % ist perfekt, 0 % nicht besser als eine Konstante je Reihe.</translation>
+        <source>variation explained %1 %</source>
+        <translation>erklärte Streuung %1 %</translation>
+    </message>
+    <message>
+        <source>rms: of the residuals of all observations. Peak-to-peak: the largest of the residual of one series. Variation explained: 100 % is perfect, 0 % no better than a constant for each series.</source>
+        <translation>rms: der Residuen aller Beobachtungen. Spitze-Spitze: der größte Wert des Residuums einer Reihe. Erklärte Streuung: 100 % ist vollkommen, 0 % nicht besser als eine Konstante je Reihe.</translation>
     </message>
 </context>
 <context>
@@ -20322,6 +20338,18 @@ ihrem Ordner und führen nicht hinaus.
     <message>
         <source>Which side is shown</source>
         <translation>Welche Seite gezeigt wird</translation>
+    </message>
+    <message>
+        <source>± 2 σ of a reading</source>
+        <translation>± 2 σ eines Messwerts</translation>
+    </message>
+    <message>
+        <source>simulated, %1</source>
+        <translation>simuliert, %1</translation>
+    </message>
+    <message>
+        <source>simulated + added, %1</source>
+        <translation>simuliert + hinzugefügt, %1</translation>
     </message>
 </context>
 <context>
@@ -26486,10 +26514,6 @@ ihrem Ordner und führen nicht hinaus.
         <translation>nicht erreicht</translation>
     </message>
     <message>
-        <source>open</source>
-        <translation>offen</translation>
-    </message>
-    <message>
         <source>not judged</source>
         <translation>nicht beurteilt</translation>
     </message>
@@ -26719,6 +26743,10 @@ ihrem Ordner und führen nicht hinaus.
     <message>
         <source>Table at its worst angle</source>
         <translation>Tisch beim ungünstigsten Winkel</translation>
+    </message>
+    <message>
+        <source>not decided</source>
+        <translation>nicht entschieden</translation>
     </message>
 </context>
 <context>

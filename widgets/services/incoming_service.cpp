@@ -4,6 +4,8 @@
 #include <QDateTime>
 #include <QDir>
 #include <QFileInfo>
+#include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "core/base/error.h"
@@ -154,7 +156,7 @@ QString IncomingService::checkedOnArrival(int listed) {
                                       [](const IncomingItem& item) { return item.state == IncomingState::Accepted; });
   if (accepted == 0) return {};
   QString text = tr("%n of %1 captures were checked as they arrived and accepted.", nullptr, static_cast<int>(accepted))
-                     .arg(listed);
+                     .arg(std::max<qsizetype>(listed, std::ssize(seen)));
   const int again = static_cast<int>(retakes().size());
   if (again > 0) text += QLatin1Char(' ') + tr("%n are to be taken again.", nullptr, again);
   return text + QLatin1Char(' ') +

@@ -13,6 +13,7 @@
 
 #include "core/base/atomic_file.h"
 #include "core/base/error.h"
+#include "core/base/random.h"
 #include "core/base/text.h"
 #include "widgets/common/parts.h"
 #include "widgets/jobs/activity_dialog.h"
@@ -81,9 +82,10 @@ QWidget* showReference(MainWindow& window, const QString& scratch) {
   writeFileAtomically(file, "time_s,value\n0,0\n1000000,0\n");
   panel->load(QString::fromStdString(file));
   std::string record = "time_s,value\n";
+  Random random(1);
   for (const ReferenceComparison::Point& p : panel->comparison().points) {
     record +=
-        exactNumber(p.time_s) + "," + exactNumber(p.probe + 0.3 * p.standard_uncertainty * std::sin(p.time_s)) + "\n";
+        exactNumber(p.time_s) + "," + exactNumber(p.probe + random.normal(0.0, 0.3 * p.standard_uncertainty)) + "\n";
   }
   writeFileAtomically(file, record);
   panel->load(QString::fromStdString(file));

@@ -393,8 +393,7 @@ TEST(NineParameterModel, AReversalErrorThatCountsAsAChangeIsSaid) {
   EXPECT_EQ(change.rows.size(), 24U);
   ASSERT_EQ(change.warnings.size(), 1U);
   EXPECT_THAT(change.warnings[0],
-              HasSubstr("21 of 24 values are compared with readings of M0 that were approached from "
-                        "another side"));
+              HasSubstr("Compared with readings of M0 that were approached from another side: 21 of 24 values."));
   // From both sides each has its own; where nobody stated a side, readings are compared as they are.
   const ObservationSet once = set;
   for (Observation o : once.rows) {

@@ -181,7 +181,7 @@ TEST(DiscrepancyReport, OneNumberSaysHowSureTheNameIs) {
   EXPECT_EQ(statedProbability(d.candidates[0], d.effects), 0.98);
   EXPECT_EQ(statedProbability(d.candidates[1], d.effects), 0.3);
   const std::string html = htmlOf(discrepancyDocument("c", d, std::nullopt));
-  EXPECT_THAT(html, HasSubstr("Probability that the name is right 98 %;"));
+  EXPECT_THAT(html, HasSubstr("Probability that the name is right: 98 %."));
   EXPECT_THAT(html, HasSubstr(">98 %<"));
   EXPECT_THAT(html, HasSubstr("30 %"));
   EXPECT_THAT(html, Not(HasSubstr("99 %")));

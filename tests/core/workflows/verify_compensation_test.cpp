@@ -99,7 +99,7 @@ TEST(Verify, AReversalErrorIsNoChange) {
       verifyCompensation(from(measured(30.0, 0.2, 1), false), from(measured(0.0, 0.2, 2), false), {});
   EXPECT_GT(one.components.at(0).after.largest, 10.0);
   ASSERT_EQ(one.notes.size(), 1U);
-  EXPECT_NE(one.notes[0].find("24 of 24 values are compared with readings that were approached from another side"),
+  EXPECT_NE(one.notes[0].find("Compared with readings that were approached from another side: 24 of 24 values"),
             std::string::npos)
       << one.notes[0];
 }
@@ -222,7 +222,8 @@ TEST(Verify, TheSameDataTwiceIsNoProof) {
     if (after.rows[i].point == "P2") after.rows[i].value = before.rows[i].value;
   const VerifyResult result = verifyCompensation(before, after, {});
   ASSERT_EQ(result.notes.size(), 1U);
-  EXPECT_NE(result.notes[0].find("3 of 24 values are the same"), std::string::npos) << result.notes[0];
+  EXPECT_NE(result.notes[0].find("The same as before to the last digit: 3 of 24 values."), std::string::npos)
+      << result.notes[0];
 }
 
 TEST(Verify, TheRmsOfOneValueIsThatValue) {

@@ -118,6 +118,7 @@ std::span<const char* const> spindrift::gui::core_formats::thermal() noexcept {
     QT_TRANSLATE_NOOP("core", "the interval of the on-machine measurements must be positive, in s."),
     QT_TRANSLATE_NOOP("core", "the iteration did not converge; use fewer time constants or a longer range."),
     QT_TRANSLATE_NOOP("core", "the lower triangle of a square matrix of 1 + terms or 1 + 2 terms rows"),
+    QT_TRANSLATE_NOOP("core", "the model has a dead time or more coefficients of an input than poles (nk + nb - 1 > na), so it has no equivalent in first-order time constants; use a lower order, or the response or output-error method, for a compensator."),
     QT_TRANSLATE_NOOP("core", "the model has a double pole, so it has no equivalent in separate time constants."),
     QT_TRANSLATE_NOOP("core", "the model has a pole that is not real and between 0 and 1, so it has no equivalent in first-order time constants; use the response or output-error method for a compensator."),
     QT_TRANSLATE_NOOP("core", "the model of {} is not written: it has no equivalent in first-order time constants (complex, negative or double poles), and a constant in its place would be run; use the method response or oe, or let the method be chosen."),

@@ -57,7 +57,7 @@ QString wordOf(VerifyVerdict verdict) {
     case VerifyVerdict::NotMet:
       return VerifyPage::tr("not met");
     case VerifyVerdict::Undecided:
-      return VerifyPage::tr("open");
+      return VerifyPage::tr("not decided");
     case VerifyVerdict::NotJudged:
       break;
   }

@@ -22,28 +22,29 @@ constexpr int group_gap = 8;
 constexpr int name_width = 56;
 constexpr int value_width = 72;
 constexpr int foot_height = 24;
-constexpr int more_height = 20;
+constexpr int more_height = 17;
 
 QString signedText(double value, int digits) {
   return decimalText(value, 'f', digits);
 }
 
-/// "p2p 12.4 → 2.6 um, fit 61 → 92 %"; empty where nothing is known.
-QString figuresText(const GapFigures& figures) {
+/// "peak-to-peak 12.4 → 2.6 um" and "variation explained 61 → 92 %"; empty where nothing is known.
+QStringList figuresText(const GapFigures& figures) {
   const auto change = [](double before, double after, int digits) {
     const QString first = signedText(before, digits);
     return std::isfinite(after) ? GapBars::tr("%1 → %2").arg(first, signedText(after, digits)) : first;
   };
   QStringList parts;
   if (std::isfinite(figures.p2p_before)) {
-    parts << GapBars::tr("p2p %1 %2")
+    parts << GapBars::tr("peak-to-peak %1 %2")
                  .arg(change(figures.p2p_before, figures.p2p_after, 1),
                       componentUnit(figures.rotations ? Component::EA : Component::EX));
   }
   if (std::isfinite(figures.fit_before_percent)) {
-    parts << GapBars::tr("fit %1 %").arg(change(figures.fit_before_percent, figures.fit_after_percent, 0));
+    parts << GapBars::tr("variation explained %1 %")
+                 .arg(change(figures.fit_before_percent, figures.fit_after_percent, 0));
   }
-  return parts.join(QStringLiteral(", "));
+  return parts;
 }
 
 }  // namespace
@@ -52,14 +53,14 @@ GapBars::GapBars(QWidget* parent) : QWidget(parent) {
   setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Fixed);
   setAccessibleName(tr("rms before, after and noise floor"));
   setToolTip(
-      tr("rms: of the residuals of all observations. p2p: the largest peak-to-peak of the residual of one series. "
-         "fit: 100 % is perfect, 0 % no better than a constant for each series."));
+      tr("rms: of the residuals of all observations. Peak-to-peak: the largest of the residual of one series. "
+         "Variation explained: 100 % is perfect, 0 % no better than a constant for each series."));
   connect(&ThemeNotifier::instance(), &ThemeNotifier::changed, this, [this] { update(); });
 }
 
 void GapBars::set(const DiscrepancyGap& gap, bool holdout, const GapFigures& fitted, const GapFigures& held_out) {
   groups_.clear();
-  const auto add = [this](const QString& title, double before, double after, const QString& more) {
+  const auto add = [this](const QString& title, double before, double after, const QStringList& more) {
     Group group{title, {}, more};
     if (std::isfinite(before)) group.bars.push_back({tr("before"), before, 0});
     if (std::isfinite(after)) group.bars.push_back({tr("after"), after, 1});
@@ -69,10 +70,11 @@ void GapBars::set(const DiscrepancyGap& gap, bool holdout, const GapFigures& fit
   const bool known = gap.heldout_rms_before_um > 0.0;
   add(holdout ? tr("Held-out observations, rms") : tr("Blocks left out in turn, rms"),
       known ? gap.heldout_rms_before_um : std::nan(""), known ? gap.heldout_rms_after_um : std::nan(""),
-      holdout ? figuresText(held_out) : QString());
+      holdout ? figuresText(held_out) : QStringList());
   noise_ = gap.noise_um;
   QStringList words;
-  for (const Group& group : groups_) words << group.title + QStringLiteral(": ") + group.more;
+  for (const Group& group : groups_)
+    words << group.title + QStringLiteral(": ") + group.more.join(QStringLiteral(", "));
   setAccessibleDescription(words.join(QStringLiteral("; ")));
   updateGeometry();
   update();
@@ -88,7 +90,7 @@ QSize GapBars::sizeHint() const {
   int height = foot_height;
   for (const Group& group : groups_) {
     height += title_height + bar_step * static_cast<int>(group.bars.size()) + group_gap;
-    if (!group.more.isEmpty()) height += more_height;
+    height += more_height * static_cast<int>(group.more.size());
   }
   return {240, groups_.empty() ? 24 : height};
 }
@@ -125,10 +127,10 @@ void GapBars::draw(QPainter& painter, const QRect& area) const {
     }
     painter.setPen(QPen(t.text, 1.2, Qt::DashLine));
     painter.drawLine(QPointF(floor_x, bars_from), QPointF(floor_x, y - 4));
-    if (!group.more.isEmpty()) {
-      painter.setPen(t.text_secondary);
+    painter.setPen(t.text_secondary);
+    for (const QString& line : group.more) {
       painter.drawText(QRect(area.left(), y - 4, area.width(), more_height), Qt::AlignLeft | Qt::AlignVCenter,
-                       onScreen(group.more));
+                       onScreen(line));
       y += more_height;
     }
     y += group_gap;

@@ -36,7 +36,7 @@ class GapBars : public QWidget {
   struct Group {
     QString title;
     std::vector<Bar> bars;
-    QString more;  ///< below the bars; may be empty
+    QStringList more;  ///< lines below the bars; may be empty
   };
   void draw(QPainter& painter, const QRect& area) const;
   std::vector<Group> groups_;

@@ -46,13 +46,13 @@ class SideCard : public Card {
 GapPanel::GapPanel(QWidget* parent) : QWidget(parent) {
   auto* line = new QHBoxLayout(this);
   line->setContentsMargins(0, 8, 0, 0);
-  line->setSpacing(4);
+  line->setSpacing(12);
   auto* left = new SideCard(tr("How large the gap is"));
   figures_ = left;
   bars_ = new GapBars;
   left->body()->addWidget(bars_);
-  model_ = makeLabel({}, "secondaryText");
-  model_->setWordWrap(true);
+  model_ = new WrappedLabel;
+  model_->setProperty("role", QStringLiteral("secondaryText"));
   left->body()->addWidget(model_);
   left->body()->addStretch(1);
   left->body()->addWidget(makeLine(Qt::Horizontal));
@@ -87,6 +87,8 @@ GapPanel::GapPanel(QWidget* parent) : QWidget(parent) {
     plot_cards_[i] = new Card(after != 0 ? tr("After, over time") : tr("Before, over time"));
     plots_[i] = new Plot;
     plots_[i]->setLegendVisible(false);
+    legends_[i] = makeLabel({}, "secondaryText");
+    plot_cards_[i]->body()->addWidget(legends_[i]);
     plot_cards_[i]->body()->addWidget(plots_[i], 1);
     view_cards_[i] = new Card(after != 0 ? tr("After, on the machine") : tr("Before, on the machine"));
     views_[i] = new View3D;
@@ -378,6 +380,10 @@ void GapPanel::showPlots() {
       content[side] = {measured, line};
     }
   }
+  const QString error = tr("± 2 σ of a reading");
+  legends_[0]->setText(legendText({{1, tr("measured")}, {0, tr("simulated, %1").arg(error)}}));
+  legends_[1]->setText(legendText({{1, tr("measured")}, {0, tr("simulated + added, %1").arg(error)}}));
+  for (std::size_t side = 0; side < 2; ++side) legends_[side]->setVisible(!content[side].empty());
   if (!std::isnan(held_from)) spans.push_back({held_from, held_to, tr("held out"), Tone::Accent});
   for (std::size_t side = 0; side < 2; ++side) {
     plots_[side]->setAxes(tr("Time / %1").arg(unit.name), y_title);

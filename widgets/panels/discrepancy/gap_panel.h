@@ -25,6 +25,7 @@ class GapBars;
 class Plot;
 class Segments;
 class View3D;
+class WrappedLabel;
 
 class GapPanel : public QWidget {
   Q_OBJECT
@@ -79,7 +80,7 @@ class GapPanel : public QWidget {
   [[nodiscard]] QString withAngle(const QString& what, double c_deg) const;
 
   GapBars* bars_;
-  QLabel* model_;
+  WrappedLabel* model_;
   QLabel* story_text_;
   QComboBox* component_;
   QComboBox* point_;
@@ -92,6 +93,7 @@ class GapPanel : public QWidget {
   std::array<Card*, 2> plot_cards_{};
   std::array<Card*, 2> view_cards_{};
   std::array<Plot*, 2> plots_{};
+  std::array<QLabel*, 2> legends_{};
   std::array<View3D*, 2> views_{};
   std::shared_ptr<const DiscrepancyStory> discrepancy_;
   std::optional<MachineDescription> machine_;

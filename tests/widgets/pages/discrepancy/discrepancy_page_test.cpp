@@ -85,8 +85,8 @@ TEST_F(DiscrepancyPageTest, NamesTheHiddenEffectAddsItAndUndoes) {
   EXPECT_EQ(lines[1].y, page_->gap()->plot(false)->series().at(1).y);
   EXPECT_NE(lines[0].y, page_->gap()->plot(false)->series().at(0).y);
   const QString figures = page_->gap()->bars()->accessibleDescription();
-  EXPECT_EQ(figures.count(QStringLiteral("p2p")), 2) << figures.toStdString();
-  EXPECT_EQ(figures.count(QStringLiteral("fit")), 2) << figures.toStdString();
+  EXPECT_EQ(figures.count(QStringLiteral("peak-to-peak")), 2) << figures.toStdString();
+  EXPECT_EQ(figures.count(QStringLiteral("variation explained")), 2) << figures.toStdString();
   EXPECT_EQ(page_->gap()->view(false)->colourScale(), page_->gap()->view(true)->colourScale());
   // The maps are worked out beside the window.
   EXPECT_TRUE(QTest::qWaitFor([this] { return page_->gap()->view(true)->points().size() == 6U; }, 2000));
