@@ -11174,7 +11174,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>not decided</source>
-        <translation>nicht entschieden</translation>
+        <translation>unentschieden</translation>
     </message>
     <message>
         <source>nothing that is logged</source>
@@ -26746,7 +26746,7 @@ ihrem Ordner und führen nicht hinaus.
     </message>
     <message>
         <source>not decided</source>
-        <translation>nicht entschieden</translation>
+        <translation>unentschieden</translation>
     </message>
 </context>
 <context>
