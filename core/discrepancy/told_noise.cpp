@@ -21,13 +21,19 @@ std::size_t at(Index unit) {
   return static_cast<std::size_t>(unit);
 }
 
-/// Components of which so many readings lie far from the others that they are no tail of the noise.
+/// Components of which so many readings lie far from the others that they are no tail of the noise: gross errors, each
+/// for itself, or something that they have in common.
 void warnAboutOutliers(const ResidualProblem& problem, const Eigen::VectorXd& left,
                        std::vector<std::string>& warnings) {
   constexpr double too_many = 0.15;
-  std::vector<std::string> components;
-  double readings = 0.0;
-  double far = 0.0;
+  struct Share {
+    std::vector<std::string> components;
+    double readings = 0.0;
+    double far = 0.0;
+    [[nodiscard]] double percent() const { return 100.0 * far / readings; }
+  };
+  Share apart;
+  Share in_common;
   for (const Component c : all_components) {
     std::vector<double> deviations;
     for (Index u = 0; u < problem.size(); ++u) {
@@ -37,15 +43,21 @@ void warnAboutOutliers(const ResidualProblem& problem, const Eigen::VectorXd& le
     const auto count = static_cast<double>(deviations.size());
     const double part = partFarOff(std::move(deviations));
     if (part < too_many) continue;
-    components.emplace_back(toString(c));
-    readings += count;
-    far += part * count;
+    Share& share = problem.noise.of(c).gross_part > 0.0 ? apart : in_common;
+    share.components.emplace_back(toString(c));
+    share.readings += count;
+    share.far += part * count;
   }
-  if (components.empty()) return;
-  warnings.push_back(
-      fmt::format("{:.0f} % of the readings of {} lie more than {:.0f} times as far off as the others and have hardly "
-                  "any weight: check how they were taken before you rely on a named effect.",
-                  100.0 * far / readings, joinedList(components), far_off));
+  if (!apart.components.empty())
+    warnings.push_back(
+        fmt::format("{:.0f} % of the readings of {} lie more than {:.0f} times as far off as the others and have "
+                    "hardly any weight: check how they were taken before you rely on a named effect.",
+                    apart.percent(), joinedList(apart.components), far_off));
+  if (!in_common.components.empty())
+    warnings.push_back(
+        fmt::format("{:.0f} % of the readings of {} lie more than {:.0f} times as far off as the others: too many to "
+                    "be down-weighted; check how they were taken before you rely on a named effect.",
+                    in_common.percent(), joinedList(in_common.components), far_off));
 }
 
 double driftOf(const ComponentNoise& n) {

@@ -11976,6 +11976,10 @@ endgültig fehlgeschlagen: {}</translation>
         <source>The same as before to the last digit: {} of {}. Is it the same measurement?</source>
         <translation>Bis zur letzten Stelle wie vorher: {} von {}. Ist es dieselbe Messung?</translation>
     </message>
+    <message>
+        <source>{:.0f} % of the readings of {} lie more than {:.0f} times as far off as the others: too many to be down-weighted; check how they were taken before you rely on a named effect.</source>
+        <translation>{:.0f} % der Messwerte von {} liegen mehr als {:.0f}-mal so weit entfernt wie die übrigen: zu viele, um sie geringer zu gewichten; ihre Entstehung prüfen, bevor man sich auf einen benannten Effekt verlässt.</translation>
+    </message>
 </context>
 <context>
     <name>files</name>

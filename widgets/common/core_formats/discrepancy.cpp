@@ -216,6 +216,7 @@ std::span<const char* const> spindrift::gui::core_formats::discrepancy() noexcep
     QT_TRANSLATE_NOOP("core", "with {} = {} the simulation gives no value for {} observations that it predicts with its own parameters."),
     QT_TRANSLATE_NOOP("core", "without the effects that cannot be named it breaks its sign or its bounds"),
     QT_TRANSLATE_NOOP("core", "{:.0f} % of the readings of {} lie more than {:.0f} times as far off as the others and have hardly any weight: check how they were taken before you rely on a named effect."),
+    QT_TRANSLATE_NOOP("core", "{:.0f} % of the readings of {} lie more than {:.0f} times as far off as the others: too many to be down-weighted; check how they were taken before you rely on a named effect."),
     QT_TRANSLATE_NOOP("core", "{:.2f} {} in {} at {}, {:.0f} s"),
     QT_TRANSLATE_NOOP("core", "{} (the simulation's parameter {})"),
     QT_TRANSLATE_NOOP("core", "{} (time constant {:.0f} s on, {:.0f} s off)"),
