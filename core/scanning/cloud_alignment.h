@@ -23,7 +23,11 @@ struct CloudAlignment {
   std::size_t least = 0;  ///< points that are needed of each
   bool converged = false;
   Eigen::Matrix4f onto_from_from = Eigen::Matrix4f::Identity();
-  double mean_square_mm2 = 0.0;  ///< of the distances below 1 mm
+  /// Of the points, moved as found: those that lie on the surface that their neighbours in the other cloud make, to
+  /// within what these neighbours themselves leave of a plane; and their root mean square distance from it.
+  double agreeing_part = 0.0;
+  double rms_mm = 0.0;
+  double median_mm = 0.0;  ///< distance of all points from that surface
 };
 
 /// What the module exports. `ndt`: normal distributions transform, then ICP; else generalised ICP. Lengths mm; points

@@ -8,6 +8,7 @@
 #include <pcl/registration/ndt.h>
 #include <pcl/search/kdtree.h>
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <array>
@@ -66,6 +67,66 @@ PclCloud::Ptr thinned(const PclCloud::Ptr& cloud, float leaf_mm) {
   return out;
 }
 
+/// How far the points of `from`, moved by `onto_from_from`, are from the planes that their neighbours in `onto` make.
+void compare(const PclCloud& from, const PclCloud::Ptr& onto, CloudAlignment& result) {
+  constexpr std::size_t most_compared = 20000;
+  constexpr int neighbours = 12;
+  constexpr double within = 4.0;  // times what neighbours leave of their plane, the median of all places
+  constexpr double beside = 3.0;  // times their distance: further away there is no neighbour
+  PatientTree tree;
+  tree.setInputCloud(onto);
+  struct Compared {
+    double distance_mm = 0.0;
+    bool beside = false;
+  };
+  std::vector<Compared> compared;
+  std::vector<double> roughness;
+  std::vector<double> distances;
+  const Eigen::Matrix3f rotation = result.onto_from_from.topLeftCorner<3, 3>();
+  const Eigen::Vector3f shift = result.onto_from_from.topRightCorner<3, 1>();
+  const std::size_t step = std::max<std::size_t>(1, from.size() / most_compared);
+  pcl::Indices indices;
+  std::vector<float> squares;
+  for (std::size_t i = 0; i < from.size(); i += step) {
+    const Eigen::Vector3f place = rotation * from[i].getVector3fMap() + shift;
+    if (!place.allFinite()) continue;
+    if (tree.nearestKSearch(pcl::PointXYZ(place.x(), place.y(), place.z()), neighbours, indices, squares) < neighbours)
+      continue;
+    Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+    for (const auto k : indices) mean += (*onto)[static_cast<std::size_t>(k)].getVector3fMap().cast<double>();
+    mean /= neighbours;
+    Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
+    for (const auto k : indices) {
+      const Eigen::Vector3d d = (*onto)[static_cast<std::size_t>(k)].getVector3fMap().cast<double>() - mean;
+      scatter += d * d.transpose() / neighbours;
+    }
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(scatter);
+    const double distance = std::abs(axes.eigenvectors().col(0).dot(place.cast<double>() - mean));
+    const double width = std::sqrt(std::max(0.0, axes.eigenvalues()[2]));
+    compared.push_back({distance, (place.cast<double>() - mean).norm() < beside * width});
+    roughness.push_back(std::sqrt(std::max(0.0, axes.eigenvalues()[0])));
+    distances.push_back(distance);
+  }
+  if (compared.empty()) return;
+  const auto medianOf = [](std::vector<double>& values) {
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+  };
+  result.median_mm = medianOf(distances);
+  // Coordinates are of single precision.
+  const double limit = within * std::max(medianOf(roughness), 1e-4);
+  double agreeing = 0.0;
+  double sum = 0.0;
+  for (const Compared& c : compared) {
+    if (!c.beside || c.distance_mm > limit) continue;
+    agreeing += 1.0;
+    sum += c.distance_mm * c.distance_mm;
+  }
+  result.agreeing_part = agreeing / static_cast<double>(compared.size());
+  result.rms_mm = agreeing > 0.0 ? std::sqrt(sum / agreeing) : 0.0;
+}
+
 CloudAlignment align(const std::vector<Eigen::Vector3f>& source, const std::vector<Eigen::Vector3f>& target, bool ndt,
                      const Eigen::Matrix4f& guess, const PclSettings& settings) {
   CloudAlignment result;
@@ -111,7 +172,6 @@ CloudAlignment align(const std::vector<Eigen::Vector3f>& source, const std::vect
     icp.align(aligned, near);
     result.converged = icp.hasConverged();
     result.onto_from_from = icp.getFinalTransformation();
-    result.mean_square_mm2 = icp.getFitnessScore(1.0);
   } else {
     pcl::GeneralizedIterativeClosestPoint<pcl::PointXYZ, pcl::PointXYZ> gicp;
     gicp.setMaxCorrespondenceDistance(settings.gicp_distance_mm);
@@ -125,8 +185,8 @@ CloudAlignment align(const std::vector<Eigen::Vector3f>& source, const std::vect
     gicp.align(aligned, guess);
     result.converged = gicp.hasConverged();
     result.onto_from_from = gicp.getFinalTransformation();
-    result.mean_square_mm2 = gicp.getFitnessScore(1.0);
   }
+  if (result.onto_from_from.allFinite()) compare(*few_from, few_onto, result);
   return result;
 }
 

@@ -80,16 +80,19 @@ RegistrationResult registerWithPcl(const PointCloud& source, const PointCloud& t
   result.target_from_source = RigidTransform(rotation, centre + shift - rotation * centre);
   result.translation_mm = turn * shift;
   result.rotation_rad = turn * result.target_from_source.rotationVector_rad();
-  result.rms_mm = std::sqrt(std::max(motion_found.mean_square_mm2, 0.0));
+  result.rms_mm = motion_found.rms_mm;
   result.points_used = source_clean.size();
   result.overlap = 1.0;
-  result.inliers = 1.0;
-  const double size = (target_clean.points_mm.front() - target_clean.points_mm.back()).norm();
-  result.status = motion_found.converged && result.rms_mm < 0.05 * size ? FitStatus::Converged : FitStatus::Rejected;
+  result.inliers = motion_found.agreeing_part;
+  result.status =
+      motion_found.converged && result.inliers >= options.least_inliers ? FitStatus::Converged : FitStatus::Rejected;
   if (!motion_found.converged)
     result.message = "PCL reports no convergence.";
   else if (!result.usable())
-    result.message = fmt::format("The clouds do not fit: root mean square distance {:.3g} mm.", result.rms_mm);
+    result.message = fmt::format(
+        "The clouds do not fit: {:.0f} % of the points lie on the surface of the reference, half of all "
+        "less than {:.3g} mm from it; at least {:.0f} % are needed.",
+        100.0 * result.inliers, motion_found.median_mm, 100.0 * options.least_inliers);
   if (result.usable()) {
     try {  // the uncertainty of a point-to-plane fit at this place, where the target is a height map
       const RegistrationTarget surface(target_clean);

@@ -109,14 +109,18 @@ double reliefOf(const CellGrid& grid) {
 /// What u can change by within half a scan (mm); machines drift by some um.
 constexpr double largest_drift_mm = 0.5;
 
+/// Cells agree within a hundredth of the relief, or within the noise where there is hardly any relief.
+double agreeWithin_mm(const RegistrationTarget& target, double source_noise) {
+  const double noise = std::sqrt(0.5 * (source_noise * source_noise + target.grid().noise_mm * target.grid().noise_mm));
+  return std::max(0.01 * target.relief_mm(), 6.0 * noise);
+}
+
 bool fits(const RegistrationSolver::Outcome& o, const RegistrationTarget& target, const RegistrationOptions& options,
           double source_noise) {
-  const double noise = std::sqrt(0.5 * (source_noise * source_noise + target.grid().noise_mm * target.grid().noise_mm));
-  // Cells agree within a hundredth of the relief, or within the noise where there is hardly any relief.
-  const double allowed = std::max(0.01 * target.relief_mm(), 6.0 * noise);
   // A drift of the size of the artefact would turn its mirror image into itself.
   if (o.motion.drift_order > 0 && !(o.motion.drift.cwiseAbs().maxCoeff() < largest_drift_mm)) return false;
-  return o.cells.size() >= 12 && o.inliers >= options.least_inliers && o.median_residual < allowed;
+  return o.cells.size() >= 12 && o.inliers >= options.least_inliers &&
+         o.median_residual < agreeWithin_mm(target, source_noise);
 }
 
 struct Matched {
@@ -256,13 +260,17 @@ RegistrationResult registerCells(const PointCloud& source, const CellGrid& grid,
   }
   if (!fitting) {
     if (o.cells.size() < 12) return reject(FitStatus::Rejected, "The scan and the reference have no common region.");
+    const double within_mm = agreeWithin_mm(target, grid.noise_mm);
+    const auto agreeing = std::count_if(o.cells.begin(), o.cells.end(),
+                                        [&](const CellResidual& c) { return std::abs(c.residual) < within_mm; });
     return reject(
         FitStatus::Rejected,
         fmt::format("The scan does not show the same surface as the reference: after the best fit the heights differ "
                     "by {:.0f} µm "
                     "({:.0f} % of the cells agree); another artefact, something over it, or it has moved by more than "
                     "{:.1f} mm.",
-                    1e3 * o.median_residual, 100.0 * o.inliers, options.search_mm));
+                    1e3 * o.median_residual,
+                    100.0 * static_cast<double>(agreeing) / static_cast<double>(o.cells.size()), options.search_mm));
   }
   if (result.overlap < options.least_overlap)
     return reject(FitStatus::Rejected,
@@ -367,9 +375,7 @@ RegistrationResult registerClouds(const PointCloud& source, const PointCloud& ta
     } catch (const InputError&) {
       if (unusable) throw *unusable;  // of no use either way: what is wrong with them as they are
     }
-    // Two height maps of different surfaces fit no better as free-form clouds.
-    const bool better = !(result.rms_mm > 0.0) || free_form.rms_mm < 0.5 * result.rms_mm;
-    if (free_form.usable() && better) {
+    if (free_form.usable()) {
       free_form.message =
           "As a height map the clouds do not fit (" + result.message + "); registered as free-form clouds.";
       result = std::move(free_form);

@@ -398,6 +398,35 @@ TEST(Registration, GicpOfPclIsThereAsReference) {
   EXPECT_THROW(static_cast<void>(registerClouds(source, target, options)), InputError);
 }
 
+TEST(Registration, OtherSurfacesAreNoneOfTheReferenceByAnyMethod) {
+  Random random(23);
+  const Grid grid{100, 100, 0.25, 0.25};
+  const auto waves = [](double x, double y) {
+    return std::sin(0.48 * x) + 0.8 * std::sin(0.57 * y) + 0.6 * std::sin(0.37 * x + 0.33 * y);
+  };
+  const auto other = [](double x, double y) { return 0.9 * std::cos(0.7 * x + 1.0) * std::sin(0.42 * y); };
+  const auto flat = [](double, double) { return 0.0; };
+  const PointCloud target = scan(waves, RigidTransform(), grid, 2e-3, random);
+  const PointCloud same = scan(waves, small_motion, grid, 2e-3, random);
+  const PointCloud of_another = scan(other, RigidTransform(), grid, 2e-3, random);
+  const PointCloud plate = scan(flat, RigidTransform(), grid, 2e-3, random);
+  for (const RegistrationMethod method :
+       {RegistrationMethod::Surface, RegistrationMethod::NdtIcp, RegistrationMethod::Gicp}) {
+    RegistrationOptions options;
+    options.method = method;
+    options.fall_back = method == RegistrationMethod::Surface;
+    const RegistrationResult fitting = registerClouds(same, target, options);
+    EXPECT_TRUE(fitting.usable()) << fitting.message;
+    // The distance from the surface, not that of one point from the next.
+    EXPECT_LT(fitting.rms_mm, 0.02) << fitting.method;
+    for (const PointCloud* cloud : {&of_another, &plate}) {
+      const RegistrationResult r = registerClouds(*cloud, target, options);
+      EXPECT_FALSE(r.usable()) << r.method << ": " << r.message;
+      EXPECT_EQ(r.message.find("100 %"), std::string::npos) << r.message;
+    }
+  }
+}
+
 /// What becomes of a pair: a complaint about the input, a status, but never an end of the process.
 std::string outcome(const PointCloud& source, const PointCloud& target, RegistrationMethod method, bool fall_back) {
   RegistrationOptions options;
