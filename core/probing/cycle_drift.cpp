@@ -6,6 +6,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -483,6 +484,15 @@ class DriftFinder {
     constexpr double telling_mm = 3e-3;
     constexpr double many_sigma = 8.0;
     if (found.step_mm.norm() < std::max(telling_mm, many_sigma * found.sigma_mm)) return {};
+    // A step that few touches of one side feel is as well some bad touches of that side.
+    constexpr double least_feeling = 3.0;
+    const Eigen::Vector3d direction = found.step_mm.normalized();
+    std::array<double, 2> feeling{};
+    for (Eigen::Index i = 0; i < m; ++i) {
+      const Eigen::Index r = order[static_cast<std::size_t>(at[static_cast<std::size_t>(i)])];
+      feeling[i < best ? 0 : 1] += std::pow(frame.row(r).dot(direction), 2);
+    }
+    if (std::min(feeling[0], feeling[1]) < least_feeling) return {};
     return found;
   }
 

@@ -10,11 +10,13 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <optional>
 #include <set>
 #include <tuple>
 #include <unordered_map>
 #include <utility>
 
+#include "core/base/count_text.h"
 #include "core/base/printed_number.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
@@ -224,6 +226,35 @@ class Assembler {
       }
     }
     for (std::size_t k = 0; k < count.size(); ++k) result_.cycle_time_s[k] /= count[k];
+    tellThoseWithoutPartner(count);
+  }
+
+  /// Touches whose feature, stylus and table angle no other cycle has: they say nothing of a change.
+  void tellThoseWithoutPartner(const std::vector<int>& touches_of_cycle) {
+    if (touches_of_cycle.size() < 2) return;
+    std::vector<int> cycles_of(settings_.size(), 0);
+    for (const Group& g : groups_) ++cycles_of[static_cast<std::size_t>(g.setting)];
+    std::map<std::pair<int, double>, std::size_t> alone;  // of cycle and angle
+    for (const Group& g : groups_) {
+      if (cycles_of[static_cast<std::size_t>(g.setting)] > 1) continue;
+      alone[{g.cycle, std::get<2>(settings_[static_cast<std::size_t>(g.setting)])}] += g.touches.size();
+    }
+    for (const auto& [of, touches] : alone) {
+      const auto& [cycle, c_deg] = of;
+      std::string sentence = fmt::format(
+          "No other cycle has the places of {} of {} at a table angle of {:g}°: they are compared with "
+          "nothing.",
+          countOf(touches, "touch", "touches"), result_.cycles[static_cast<std::size_t>(cycle)], c_deg);
+      // What a control reads back, or counts from the other side.
+      std::optional<double> meant;
+      constexpr double read_back_deg = 0.1;
+      for (const auto& [feature, stylus, other_deg] : settings_)
+        if (other_deg != c_deg && std::abs(std::remainder(other_deg - c_deg, 360.0)) < read_back_deg) meant = other_deg;
+      if (meant)
+        sentence +=
+            fmt::format(" Touches of one place have one c_deg in all cycles, here {:g}° and {:g}°.", c_deg, *meant);
+      result_.warnings.push_back(std::move(sentence));
+    }
   }
 
   [[nodiscard]] double radiusOf(int setting) const {

@@ -100,12 +100,15 @@ double PrintedTextReader::number(const Values& values, const char* what, double 
   return parsed;
 }
 
+std::string PrintedTextReader::cycleName(std::string label) const {
+  double number = 0.0;  // "1." and "001" mean 1
+  if (parseNumber(label, number)) label = exactNumber(number);
+  return prefix_ + label;
+}
+
 void PrintedTextReader::beginCycle(const Values& values) {
   const auto named = values.find("cycle");
-  std::string label = named != values.end() ? named->second : std::to_string(cycles_);
-  double number = 0.0;
-  if (parseNumber(label, number)) label = exactNumber(number);
-  cycle_ = prefix_ + label;
+  cycle_ = cycleName(named != values.end() ? named->second : std::to_string(cycles_));
   if (cycles_ > 0) cycle_start_s_ += cycle_interval_s_;
   if (cycle_interval_s_ > 0.0) clock_s_ = std::max(clock_s_, cycle_start_s_);
   ++cycles_;
@@ -117,7 +120,7 @@ Touch PrintedTextReader::touchOf(const Values& values) {
   Touch t;
   t.line = line_;
   const auto named = values.find("cycle");
-  t.cycle = named != values.end() ? prefix_ + named->second : cycle_;
+  t.cycle = named != values.end() ? cycleName(named->second) : cycle_;
   t.artefact = word(values, "artefact", artefact_);
   t.feature = word(values, "feature", "");
   t.stylus = word(values, "stylus", stylus_);
@@ -177,6 +180,8 @@ Touch PrintedTextReader::touchOf(const Values& values) {
 }
 
 std::optional<Touch> PrintedTextReader::read(std::string_view whole) {
+  constexpr std::string_view mark = "\xEF\xBB\xBF";  // of UTF-8, at the begin of a file
+  if (line_ == 0 && whole.starts_with(mark)) whole.remove_prefix(mark.size());
   const std::string_view line = trimmed(whole);
   ++line_;
   if (line.empty()) return std::nullopt;

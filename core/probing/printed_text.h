@@ -46,6 +46,7 @@ class PrintedTextReader {
  private:
   using Values = std::map<std::string, std::string>;
   void beginCycle(const Values& values);
+  [[nodiscard]] std::string cycleName(std::string label) const;
   [[nodiscard]] Touch touchOf(const Values& values);
   [[nodiscard]] std::string translated(const std::string& place, const std::string& value) const;
   [[nodiscard]] std::string word(const Values& values, const char* what, const std::string& otherwise) const;

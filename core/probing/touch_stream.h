@@ -31,6 +31,8 @@ class TouchStream {
 
   /// Touches of lines that `more` completes. Throws InputError only if the template is unusable.
   [[nodiscard]] std::vector<Touch> update(std::string_view more);
+  /// The touch of a last line without its end, where nothing more comes.
+  [[nodiscard]] std::vector<Touch> finish() { return rest_.empty() ? std::vector<Touch>() : update("\n"); }
   /// The file was written anew: the next update brings its beginning. The receiver knows which touches it has.
   void restart();
   /// Lines that could not be read, in order.

@@ -414,6 +414,45 @@ TEST_P(CycleKind, WithoutAKnockNoneIsFound) {
   }
 }
 
+/// Bad touches anywhere, some of which are the only ones of their side that feel a direction.
+TEST(HoleCycle, SomeBadTouchesAreNoKnock) {
+  const MachineDescription m = machineFrom(holeMachineText());
+  int left_out = 0;
+  for (std::uint64_t seed = 300; seed < 380; ++seed) {
+    VirtualRun run = runCycles(m, 2, {}, seed);
+    Random random(seed);
+    for (int k = 0; k < 3; ++k) {
+      Touch& t = run.list.touches[random.index(run.list.touches.size())];
+      t.position_mm += 0.005 * t.approach;
+    }
+    const HoleCycleResult result = evaluateHoleCycles(run.list, m, m.artefacts.front());
+    left_out += result.fit.cycles[1].touches_used == 0 ? 1 : 0;
+  }
+  EXPECT_EQ(left_out, 0);
+}
+
+TEST(HoleCycle, TouchesThatNoOtherCycleHasAreTold) {
+  const MachineDescription m = machineFrom(holeMachineText());
+  const VirtualRun run = runCycles(m, 3, {}, 92);
+  const auto with = [&](const std::function<double(double)>& angle) {
+    VirtualRun changed = run;
+    for (Touch& t : changed.list.touches)
+      if (t.cycle == "M1") t.c_deg = angle(t.c_deg);
+    return evaluateHoleCycles(changed.list, m, m.artefacts.front()).warnings;
+  };
+  double turned_deg = 0.0;
+  for (const Touch& t : run.list.touches) turned_deg = std::max(turned_deg, t.c_deg);
+  ASSERT_GT(turned_deg, 0.0);
+  for (const double other : {turned_deg - 360.0, turned_deg + 0.001}) {
+    const std::vector<std::string> warnings = with([&](double c) { return c == turned_deg ? other : c; });
+    EXPECT_THAT(warnings, ::testing::Contains(::testing::AllOf(
+                              ::testing::HasSubstr("of M1 at a table angle of"),
+                              ::testing::HasSubstr("Touches of one place have one c_deg in all cycles"))));
+  }
+  EXPECT_THAT(with([](double c) { return c; }),
+              ::testing::Not(::testing::Contains(::testing::HasSubstr("No other cycle has"))));
+}
+
 TEST(BallCycle, OffsetsThatTheTouchesContradictAreTold) {
   const VirtualRun run = runCycles(machineFrom(ballMachineText()), 3, {}, 91);
   const auto told = [&](const std::function<void(MachineDescription&)>& change) {

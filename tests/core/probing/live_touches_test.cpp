@@ -280,6 +280,30 @@ TEST(TouchStream, ABadLineIsASentenceAndTheRestIsRead) {
   EXPECT_TRUE(stream.problems().empty());
 }
 
+TEST(TouchStream, AMarkOfUtf8AndNumbersOfCyclesAsAControlPrintsThem) {
+  const MachineDescription m = machineFrom(holeMachineText());
+  const JsonNode by_line = JsonNode::parse(
+      R"({"format":"spindrift-printed-text","version":1,"touch_line":"T {feature} X{x} Y{y} Z{z} I{nx} J{ny} K{nz}",
+"cycle_line":"CYCLE {cycle}","cycle_prefix":"M","artefact":"bar","stylus":"S1"})",
+      "template.json");
+  TouchStream marked("a.txt", m, by_line);
+  const std::vector<Touch> first = marked.update(
+      "\xEF\xBB\xBF"
+      "CYCLE 1.\nT H1 X1 Y2 Z3 I1 J0 K0\n");
+  ASSERT_EQ(first.size(), 1U);
+  EXPECT_EQ(first[0].cycle, "M1");
+  const JsonNode in_line = JsonNode::parse(
+      R"({"format":"spindrift-printed-text","version":1,"touch_line":"T N{cycle} {feature} X{x} Y{y} Z{z} I{nx} J{ny} K{nz}",
+"cycle_prefix":"M","artefact":"bar","stylus":"S1"})",
+      "template.json");
+  TouchStream named("b.txt", m, in_line);
+  const std::vector<Touch> second = named.update(
+      "\xEF\xBB\xBF"
+      "T N1. H1 X1 Y2 Z3 I1 J0 K0\n");
+  ASSERT_EQ(second.size(), 1U);
+  EXPECT_EQ(second[0].cycle, "M1");
+}
+
 TEST(TouchStream, PrintedTextIsReadThroughItsTemplateAsItGrows) {
   const MachineDescription m = machineFrom(holeMachineText());
   const JsonNode pattern = JsonNode::parse(
