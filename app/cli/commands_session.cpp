@@ -12,6 +12,7 @@
 #include "app/cli/session_source.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/base/untrusted_text.h"
 #include "core/session/session.h"
 #include "core/tasks/campaign_state.h"
 #include "core/tasks/steps.h"
@@ -74,14 +75,27 @@ CommandResult stateOf(const SessionArguments& arguments, JobContext& job) {
   }
   Session session = Session::open(arguments.folder);
   result.json["campaigns"] = nlohmann::json::array();
+  result.warnings.insert(result.warnings.end(), session.recoveryMessages().begin(), session.recoveryMessages().end());
+  std::vector<InputError> unreadable;
   for (const CampaignRecord& record : session.campaigns()) {
     if (!arguments.campaign.empty() && record.name != arguments.campaign) continue;
-    const FileCheck files = session.takeFiles(record.id, fingerprintsOfFiles(record.folder, job));
-    result.summary += record.name + "\n";
-    if (!files.same()) result.warnings.push_back(record.name + ": " + files.sentence() + ".");
-    nlohmann::json steps = stepsOf(session, record, result.summary);
-    result.json["campaigns"].push_back(
-        {{"name", record.name}, {"files_changed", files.sentence()}, {"steps", std::move(steps)}});
+    try {
+      const FileCheck files = session.takeFiles(record.id, fingerprintsOfFiles(record.folder, job));
+      std::string summary = printable(record.name) + "\n";
+      if (!files.same()) result.warnings.push_back(printable(record.name) + ": " + files.sentence() + ".");
+      nlohmann::json steps = stepsOf(session, record, summary);
+      result.summary += summary;
+      result.json["campaigns"].push_back(
+          {{"name", record.name}, {"files_changed", files.sentence()}, {"steps", std::move(steps)}});
+    } catch (const InputError& error) {
+      unreadable.push_back(error);
+    }
+  }
+  // The others are shown all the same.
+  if (result.json["campaigns"].empty() && !unreadable.empty()) throw InputError(unreadable.front());
+  for (const InputError& error : unreadable) {
+    result.warnings.emplace_back(error.what());
+    result.exit_status = NotGoodEnough;
   }
   if (result.json["campaigns"].empty()) {
     throw InputError({arguments.folder, ""}, arguments.campaign.empty()

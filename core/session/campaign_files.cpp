@@ -4,7 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
+#include <set>
 
+#include "core/base/atomic_file.h"
 #include "core/base/sha256.h"
 #include "core/session/session_database.h"
 
@@ -59,15 +62,36 @@ void recordFiles(SessionDatabase& database, const CampaignRecord& record, const 
   if (!changed.empty()) database.setFiles(record.id, changed);
 }
 
+namespace {
+
+/// Files that the lists of captures name.
+std::set<std::string> filesInLists(const fs::path& campaign) {
+  std::vector<std::string> rows;
+  for (const std::string& list : captureLists(campaign)) {
+    const std::string text = readFile(campaign / list);
+    for (std::size_t begin = 0; begin < text.size();) {
+      const std::size_t end = std::min(text.find_first_of("\r\n", begin), text.size());
+      if (end > begin) rows.push_back(text.substr(begin, end - begin));
+      begin = end + 1;
+    }
+  }
+  const std::vector<std::string> named = filesNamedIn(campaign, rows);
+  return {named.begin(), named.end()};
+}
+
+}  // namespace
+
 FileCheck takeFiles(SessionDatabase& database, const CampaignRecord& record, const FileFingerprints& found) {
   const KnownFiles all = database.files(record.id);
   const bool first = all.empty();
   KnownFiles changed;
   FileCheck check;
+  std::optional<std::set<std::string>> listed;  // what the lists name, if it is asked for
   for (const auto& [name, content] : found) {
     const auto known = all.find(name);
     if (known == all.end()) {
-      const bool counts = first || !isAmongCaptures(name);
+      if (!first && isAmongCaptures(name) && !listed) listed = filesInLists(record.folder);
+      const bool counts = first || !isAmongCaptures(name) || listed->contains(name);
       changed[name] = {content, counts};
       if (counts && !first) check.added.push_back(name);
     } else if (known->second.content != content) {

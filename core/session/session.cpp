@@ -119,6 +119,7 @@ Session Session::open(const std::filesystem::path& wanted) {
   Session session(folder, std::move(lock), std::move(database));
   session.migration_messages_ = std::move(messages);
   if (crashed) session.recovery_messages_.push_back(found.sentence());
+  for (std::string& finding : found.findings()) session.recovery_messages_.push_back(std::move(finding));
   log(LogLevel::Info, "opened session " + folder.string());
   return session;
 }

@@ -163,6 +163,8 @@ SessionDatabase::SessionDatabase(const std::filesystem::path& file, std::vector<
     : file_(file), connection_(std::make_unique<Connection>()) {
   guarded(file_, [&] {
     soci::session& sql = connection_->sql;
+    std::error_code ignored;
+    const bool there = std::filesystem::exists(file_, ignored);
     sql.open(soci::sqlite3, fmt::format("db=\"{}\" timeout=5", file_.string()));
     sql << "pragma foreign_keys = on";
     sql << "pragma synchronous = full";
@@ -174,6 +176,9 @@ SessionDatabase::SessionDatabase(const std::filesystem::path& file, std::vector<
                                    "it there or install the newer version.",
                                    version, newest_version));
     }
+    // What is no database of a session, or an empty one, is never made one: its campaigns would stand in no list.
+    if (version < 0 || (there && version == 0))
+      throw InputError({file_, ""}, "is empty or no database of a session; put it back from a copy of the session.");
     requireSound(sql, file_);
     if (version < newest_version) {
       const int before = version;
@@ -479,6 +484,9 @@ std::vector<UnreadResult> SessionDatabase::selectResults(std::int64_t campaign, 
       result.provenance.inputs_fingerprint = row.get<std::string>(4);
       result.provenance.inputs = parsed(file_, row.get<std::string>(5), "inputs");
       result.provenance.options = parsed(file_, row.get<std::string>(6), "options");
+      // Of what somebody else wrote nobody knows what it was made from.
+      for (nlohmann::json* part : {&result.provenance.inputs, &result.provenance.options})
+        if (!part->is_object()) *part = nlohmann::json::object();
       list.push_back({std::move(result), row.get<std::string>(7), file_});
     }
     return list;

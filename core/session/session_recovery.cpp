@@ -10,6 +10,7 @@
 #include "core/base/count_text.h"
 #include "core/base/file_end.h"
 #include "core/base/inside_folder.h"
+#include "core/machine/campaign.h"
 #include "core/session/campaign_files.h"
 #include "core/session/capture_list.h"
 #include "core/session/session_database.h"
@@ -80,6 +81,27 @@ void finishLists(const CampaignRecord& record, SessionDatabase& database, bool c
   }
 }
 
+/// A folder without a row, as it is.
+void takeBack(const fs::path& session_folder, const fs::path& folder, SessionDatabase& database,
+              RecoveryReport& report) {
+  try {
+    const std::string name = Campaign::read(folder).name;
+    CampaignRecord record;
+    const std::string relative = folder.lexically_relative(session_folder).generic_string();
+    const FileFingerprints files = fingerprintsOfFiles(folder, {});
+    record.id = database.addCampaign(name, relative, "");
+    record.name = name;
+    record.folder = folder;
+    takeFiles(database, record, files);
+    database.keepFingerprint(record.id);
+    report.taken_back.push_back(name);
+  } catch (const InputError&) {
+    report.left_alone.push_back(folder.filename().string());
+  } catch (const fs::filesystem_error&) {
+    report.left_alone.push_back(folder.filename().string());
+  }
+}
+
 }  // namespace
 
 fs::path freshFolder(const fs::path& parent, const std::string& name) {
@@ -97,6 +119,18 @@ std::string RecoveryReport::sentence() const {
     text += fmt::format(" {} now in the folder \"removed\".",
                         countOf(moved, "unfinished campaign is", "unfinished campaigns are"));
   return text;
+}
+
+std::vector<std::string> RecoveryReport::findings() const {
+  std::vector<std::string> out;
+  for (const std::string& name : taken_back)
+    out.push_back(
+        fmt::format("The campaign {} was in the folder of the session and not in its database (one from "
+                    "before it was imported?): it is there again, without results.",
+                    name));
+  for (const std::string& name : left_alone)
+    out.push_back(fmt::format("The folder campaigns/{} is no campaign of the session and was left as it is.", name));
+  return out;
 }
 
 std::string recordedLogKey(std::int64_t campaign) {
@@ -125,11 +159,19 @@ RecoveryReport putInOrder(const fs::path& session_folder, SessionDatabase& datab
     database.keepFingerprint(record.id);
   }
   std::error_code ignored;
-  for (const auto& entry : fs::directory_iterator(session_folder / "campaigns", ignored)) {
-    if (!entry.is_directory(ignored) || known.contains(entry.path().filename())) continue;
-    const fs::path target = freshFolder(session_folder / "removed", entry.path().filename().string());
+  std::vector<fs::path> unknown;
+  for (const auto& entry : fs::directory_iterator(session_folder / "campaigns", ignored))
+    if (entry.is_directory(ignored) && !known.contains(entry.path().filename())) unknown.push_back(entry.path());
+  std::sort(unknown.begin(), unknown.end());
+  for (const fs::path& folder : unknown) {
+    // Nothing was cut short: its row is in a database that is not this one.
+    if (!crashed) {
+      takeBack(session_folder, folder, database, report);
+      continue;
+    }
+    const fs::path target = freshFolder(session_folder / "removed", folder.filename().string());
     fs::create_directories(target.parent_path(), ignored);
-    fs::rename(entry.path(), target, ignored);
+    fs::rename(folder, target, ignored);
     if (!ignored) ++report.moved;
   }
   return report;

@@ -6,6 +6,7 @@
 //   an import                                   campaigns/.importing-*                removed (no row, half a copy)
 //   writing a file                              .<name>.<process>.<number>.part       removed (the old file is whole)
 //   making or removing a campaign               a folder without a row                moved to removed/
+//   nothing: an older database was put back     a folder without a row                a campaign again, without results
 //   a capture, between list and database        fingerprint of the list differs       fingerprint brought up to date
 //   a row of a list                             a last line without its end           taken back (nobody was told of
 //   it) several rows, or one that came late         the end of the list as it is to be,   written again
@@ -14,6 +15,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "core/session/session.h"
 
@@ -22,13 +24,17 @@ namespace spindrift {
 class SessionDatabase;
 
 struct RecoveryReport {
-  std::size_t captures = 0;   ///< rows in the lists of all campaigns
-  std::size_t results = 0;    ///< stored results of all campaigns
-  std::size_t leftovers = 0;  ///< half files and half imports that were removed
-  std::size_t moved = 0;      ///< folders without a row, now in removed/
+  std::size_t captures = 0;             ///< rows in the lists of all campaigns
+  std::size_t results = 0;              ///< stored results of all campaigns
+  std::size_t leftovers = 0;            ///< half files and half imports that were removed
+  std::size_t moved = 0;                ///< folders without a row, now in removed/
+  std::vector<std::string> taken_back;  ///< names of campaigns that stood in no row and are in the session again
+  std::vector<std::string> left_alone;  ///< folders without a row that are no campaigns
 
-  /// One sentence for the user.
+  /// One sentence for the user: after a crash.
   [[nodiscard]] std::string sentence() const;
+  /// What was other than it was left in order; empty where nothing was.
+  [[nodiscard]] std::vector<std::string> findings() const;
 };
 
 /// To be called with the lock held; `crashed`: the program that worked on it before did not end in order. Failures to

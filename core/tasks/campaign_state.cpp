@@ -177,8 +177,8 @@ StoredEvaluation evaluationFrom(const StoredResult& result) try {
   for (const auto& one : p.value("instruments", nlohmann::json::array()))
     evaluation.instruments.push_back(instrumentFrom(one));
   return evaluation;
-} catch (const nlohmann::json::exception& e) {
-  throw InputError(fmt::format("the stored evaluation cannot be read ({}); evaluate again.", e.what()));
+} catch (const nlohmann::json::exception&) {
+  throw InputError("the stored evaluation cannot be read; evaluate again.");
 }
 
 std::optional<CampaignEvaluation> asWorkedOut(const StoredEvaluation& stored) {
@@ -225,6 +225,25 @@ CampaignSource CampaignSource::of(const Session& session, std::int64_t wanted) {
   return source;
 }
 
+namespace {
+
+/// Whether a payload can be one of its kind at all: a session may be damaged, or somebody else's.
+bool isReadable(const StoredResult& result) {
+  const nlohmann::json& p = result.payload;
+  if (!p.is_object()) return false;
+  if (result.kind != of_captures || p.empty()) return true;
+  const auto is = [&](const char* key, auto right) {
+    const auto found = p.find(key);
+    return found == p.end() || right(*found);
+  };
+  return is("json", [](const nlohmann::json& j) { return j.is_object(); }) &&
+         is("summary", [](const nlohmann::json& j) { return j.is_string(); }) &&
+         is("observations", [](const nlohmann::json& j) { return j.is_string(); }) &&
+         is("good_enough", [](const nlohmann::json& j) { return j.is_boolean(); });
+}
+
+}  // namespace
+
 const StoredResult* CampaignResults::latest(const TaskGraph& graph, const std::string& kind) {
   auto heads = heads_.find(kind);
   if (heads == heads_.end()) heads = heads_.emplace(kind, graph.session().resultHeads(graph.campaign(), kind)).first;
@@ -234,9 +253,23 @@ const StoredResult* CampaignResults::latest(const TaskGraph& graph, const std::s
   if (read == read_.end()) {
     StoredResult whole = *head;
     whole.payload = graph.session().payload(head->id);
+    if (!isReadable(whole)) {
+      if (!head->provenance.inputs.empty()) {
+        giveUp(head->id);
+        return latest(graph, kind);  // an earlier one that holds, else this one as outdated
+      }
+      whole.payload = nlohmann::json::object();
+    }
     read = read_.emplace(head->id, std::move(whole)).first;
   }
   return &read->second;
+}
+
+void CampaignResults::giveUp(std::int64_t id) {
+  read_.erase(id);
+  for (auto& [kind, heads] : heads_)
+    for (StoredResult& head : heads)
+      if (head.id == id) head.provenance.inputs = nlohmann::json::object();
 }
 
 void CampaignResults::keep(StoredResult result) {
@@ -262,6 +295,8 @@ CampaignState CampaignState::read(const CampaignSource& source, JobContext& job)
   for (const UnreadResult& result : source.newest) {
     job.throwIfCancelled();
     StoredResult read = result.read();
+    // What cannot be read is found when it is asked for.
+    if (!isReadable(read) || read.payload.empty()) continue;
     if (read.kind == of_captures) state.evaluation_ = std::make_shared<const StoredEvaluation>(evaluationFrom(read));
     state.results_.takeRead(std::move(read));
   }
@@ -293,7 +328,7 @@ void CampaignState::keep(std::optional<StoredResult> result) {
 
 std::shared_ptr<const StoredEvaluation> CampaignState::evaluation(const TaskGraph& graph) const {
   const StoredResult* latest = graph.latest(std::string(of_captures));
-  if (latest == nullptr) return nullptr;
+  if (latest == nullptr || !isReadable(*latest) || latest->payload.empty()) return nullptr;
   if (evaluation_ == nullptr || evaluation_->id != latest->id)
     evaluation_ = std::make_shared<const StoredEvaluation>(evaluationFrom(*latest));
   return evaluation_;

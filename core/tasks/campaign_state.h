@@ -81,6 +81,9 @@ class CampaignResults {
   void takeRead(StoredResult result) { read_[result.id] = std::move(result); }
 
  private:
+  /// Nobody knows what a result that cannot be read was made from: it is outdated, whatever it says.
+  void giveUp(std::int64_t id);
+
   std::map<std::string, std::vector<StoredResult>> heads_;  ///< oldest first
   std::map<std::int64_t, StoredResult> read_;
 };

@@ -349,7 +349,9 @@ CaptureCounts CaptureCounts::of(const TaskGraph& graph) {
   return counts;
 }
 
-StepReport stepReport(const TaskGraph& graph, StepId step, const CaptureCounts& counts) {
+namespace {
+
+StepReport readReport(const TaskGraph& graph, StepId step, const CaptureCounts& counts) {
   switch (step) {
     case StepId::Machine: {
       if (const std::vector<std::string> outside = pointsOutsideTravel(graph.data().machine); !outside.empty())
@@ -385,6 +387,15 @@ StepReport stepReport(const TaskGraph& graph, StepId step, const CaptureCounts& 
     }
   }
   return {};
+}
+
+}  // namespace
+
+StepReport stepReport(const TaskGraph& graph, StepId step, const CaptureCounts& counts) try {
+  return readReport(graph, step, counts);
+} catch (const nlohmann::json::exception&) {
+  // A session that somebody else wrote, or that is damaged.
+  return report(StepState::Outdated, "The stored result cannot be read. Run it again.");
 }
 
 std::string taskOfStep(const TaskGraph& graph, StepId step) {

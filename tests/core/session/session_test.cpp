@@ -167,6 +167,21 @@ TEST(Session, WhatACrashCutShortIsPutInOrder) {
   EXPECT_TRUE(std::filesystem::exists(folder / "s/removed/without_row/machine.json"));
 }
 
+TEST(Session, ACaptureThatIsPutBackCounts) {
+  const TempFolder folder;
+  JobContext job;
+  const auto source = writeCampaign(folder, "source");
+  folder.write("source/captures/fiducials.csv", "time_s,image\n0,captures/images/a.jpg\n60,captures/images/b.jpg\n");
+  Session session = Session::create(folder / "s");
+  const std::int64_t id = session.importCampaign(source, job);
+  const std::filesystem::path place = session.campaign(id).folder;
+  const std::string before = session.inputs(id).value("files", std::string());
+  writeFileAtomically(place / "captures/images/b.jpg", "the one that was missing");
+  writeFileAtomically(place / "captures/images/unlisted.jpg", "of nobody");
+  EXPECT_THAT(session.takeFiles(id, fingerprintsOfFiles(place, job)).added, ElementsAre("captures/images/b.jpg"));
+  EXPECT_NE(session.inputs(id).value("files", std::string()), before);
+}
+
 TEST(Session, CaptureThatIsRepeatedStandsThereOnce) {
   const TempFolder folder;
   const auto image = folder.write("a.jpg", "one");
@@ -215,6 +230,49 @@ TEST(Session, RefusesDatabaseOfNewerVersionAndLeavesItAlone) {
   const std::string before = readFile(folder / "s/session.sqlite");
   EXPECT_THROW((void)Session::open(folder / "s"), InputError);
   EXPECT_EQ(readFile(folder / "s/session.sqlite"), before);
+}
+
+TEST(Session, AnEmptyDatabaseIsNotMadeANewOneAndNothingIsMoved) {
+  const TempFolder folder;
+  JobContext job;
+  { (void)Session::create(folder / "s").importCampaign(writeCampaign(folder, "source"), job); }
+  const std::string whole = readFile(folder / "s/session.sqlite");
+  folder.write("s/session.sqlite", "");
+  try {
+    (void)Session::open(folder / "s");
+    FAIL() << "an empty database must be refused";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("put it back from a copy"));
+  }
+  EXPECT_TRUE(std::filesystem::exists(folder / "s/campaigns/warm-up_1/machine.json"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "s/removed"));
+  folder.write("s/session.sqlite", whole);
+  EXPECT_EQ(Session::open(folder / "s").campaigns().size(), 1U);
+  sqlite3* handle = nullptr;
+  ASSERT_EQ(sqlite3_open((folder / "s/session.sqlite").c_str(), &handle), SQLITE_OK);
+  ASSERT_EQ(sqlite3_exec(handle, "pragma user_version = -3", nullptr, nullptr, nullptr), SQLITE_OK);
+  sqlite3_close(handle);
+  EXPECT_THROW((void)Session::open(folder / "s"), InputError);
+}
+
+TEST(Session, ACampaignThatAnOlderDatabaseDoesNotKnowIsTakenBack) {
+  const TempFolder folder;
+  JobContext job;
+  { (void)Session::create(folder / "s").newCampaign("c", "2026-01-31T08:00:00Z", machine_json); }
+  const std::string older = readFile(folder / "s/session.sqlite");
+  {
+    Session session = Session::open(folder / "s");
+    session.importCampaign(writeCampaign(folder, "source"), job);
+  }
+  folder.write("s/session.sqlite", older);
+  folder.write("s/campaigns/of_nobody/a.txt", "a");
+  const Session session = Session::open(folder / "s");
+  ASSERT_EQ(session.campaigns().size(), 2U);
+  EXPECT_EQ(session.campaigns()[1].name, "warm-up 1");
+  EXPECT_EQ(Campaign::read(session.campaigns()[1].folder).machine.name, "mill");
+  EXPECT_THAT(session.recoveryMessages(), ElementsAre(HasSubstr("warm-up 1"), HasSubstr("of_nobody")));
+  EXPECT_TRUE(std::filesystem::exists(folder / "s/campaigns/of_nobody/a.txt"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "s/removed"));
 }
 
 /// A session folder with the database of version 1.

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/error.h"
+#include "tests/core/tasks/tasks_support.h"
 
 namespace spindrift {
 namespace {
@@ -33,6 +34,24 @@ TEST(CampaignState, EvaluationsAreStoredWithTheFactorsOfTheirNoise) {
     EXPECT_EQ(after.rows[i].sigma, 0.5);
     for (std::size_t j = 0; j < 4; ++j)
       EXPECT_EQ(after.shared.covariance(i, j), before.observations.shared.covariance(i, j));
+  }
+}
+
+/// A result that somebody else wrote, or that was damaged: it is outdated, and everything else of the session is there.
+TEST(CampaignState, ResultsThatCannotBeReadAreOutdated) {
+  for (const char* payload : {"\"x\"", "[1]", R"({"json":[],"summary":1})"}) {
+    SCOPED_TRACE(payload);
+    testing::TaskSession s;
+    s.run("evaluate", nlohmann::json::parse(payload));
+    s.run("report", {{"file", nlohmann::json::array()}});
+    EXPECT_EQ(s.status("evaluate").state, TaskState::Outdated);
+    for (const StepId step : all_steps) EXPECT_FALSE(s.step(step).sentence.empty());
+    EXPECT_EQ(s.step(StepId::Report).state, StepState::Outdated);
+    const CampaignState state = CampaignState::read(s.session_, s.id_);
+    const TaskLedger nothing_runs;
+    const TaskGraph graph = state.tasks(s.session_, nothing_runs);
+    EXPECT_EQ(state.evaluation(graph), nullptr);
+    EXPECT_FALSE(graph.status("evaluate").current);
   }
 }
 
