@@ -124,6 +124,11 @@ CommandResult watch(const WatchArguments& a, bool live, JobContext& job) {
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
   }
   watch.finish();
+  result.warnings = watch.problems();
+  result.json["problems"] = result.warnings;
+  if (!result.warnings.empty()) result.exit_status = NotGoodEnough;
+  for (const IncomingItem& item : watch.undecided())
+    result.warnings.push_back(fmt::format("{}: {}", item.name, item.sentence));
   const std::vector<std::string> retakes = watch.retakes();
   result.json["retakes"] = retakes;
   result.json["touches"] = watch.touches();

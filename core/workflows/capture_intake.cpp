@@ -63,6 +63,8 @@ std::string CaptureIntake::touchSentence() const {
                              : fmt::format("; {} are taken over when their feature is complete", waiting);
   }
   if (again > 0) sentence += fmt::format("; {} to be taken again", again);
+  if (const std::size_t lines = touchProblems().size(); lines > 0)
+    sentence += "; " + countOf(lines, "line cannot be read", "lines cannot be read");
   return sentence + ".";
 }
 
@@ -76,6 +78,14 @@ std::size_t CaptureIntake::takeTouches(const ExaminedFile& examined) {
   taken = examined.from + examined.text.size();
   if (context_ != nullptr && examined.position != nullptr) context_->recordPosition(examined);
   return count;
+}
+
+void CaptureIntake::finishTouches() {
+  if (feed_ != nullptr) feed_->finish();
+}
+
+std::vector<std::string> CaptureIntake::touchProblems() const {
+  return feed_ == nullptr ? std::vector<std::string>() : feed_->problems();
 }
 
 std::vector<Touch> CaptureIntake::takeFinished(bool all) {

@@ -38,6 +38,10 @@ class CaptureIntake {
   /// not go on where the last part ended is left alone (the file is read again). Throws InputError for an unusable
   /// template.
   std::size_t takeTouches(const ExaminedFile& examined);
+  /// Nothing more comes: last lines of lists count without their end.
+  void finishTouches();
+  /// Lines of lists that could not be read, as sentences.
+  [[nodiscard]] std::vector<std::string> touchProblems() const;
   /// Touches that are ready for touches.csv; `all`: also those that wait for the end of their feature.
   [[nodiscard]] std::vector<Touch> takeFinished(bool all);
 

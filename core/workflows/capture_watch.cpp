@@ -51,7 +51,14 @@ std::vector<IncomingItem> CaptureWatch::turn(double now_s) {
   return decided;
 }
 
+std::vector<IncomingItem> CaptureWatch::undecided() const {
+  std::vector<IncomingItem> items;
+  for (const std::size_t i : folder_.waiting()) items.push_back(folder_.items()[i]);
+  return items;
+}
+
 void CaptureWatch::finish() {
+  intake_.finishTouches();
   storeTouches(true);
 }
 

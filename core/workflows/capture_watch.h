@@ -36,6 +36,10 @@ class CaptureWatch {
   [[nodiscard]] std::vector<std::string> retakes() const;
   [[nodiscard]] const MeasurementPlan& plan() const { return plan_; }
   [[nodiscard]] const std::set<std::string>& done() const { return context_->captures().done; }
+  /// Lines of lists of touches that could not be read, as sentences.
+  [[nodiscard]] std::vector<std::string> problems() const { return intake_.touchProblems(); }
+  /// What was never complete.
+  [[nodiscard]] std::vector<IncomingItem> undecided() const;
   [[nodiscard]] std::size_t touches() const { return intake_.touchCount(); }
 
  private:

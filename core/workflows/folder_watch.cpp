@@ -68,10 +68,10 @@ void FolderWatch::lookAt(const std::string& file, double now_s, std::vector<Watc
     known.since_s = now_s;
     known.settled = false;
     changes.push_back({file, FileState::Growing, size, written});
-  } else if (!known.settled && size > 0 && now_s - known.since_s >= options_.settle_s) {
+  } else if (!known.settled && now_s - known.since_s >= options_.settle_s) {
     known.settled = true;
     --unsettled_;
-    changes.push_back({file, FileState::Settled, size, written});
+    changes.push_back({file, size > 0 ? FileState::Settled : FileState::Empty, size, written});
   }
 }
 
@@ -92,8 +92,8 @@ std::vector<WatchedFile> FolderWatch::look(double now_s) {
       ++at;
       continue;
     }
-    if (!at->second.settled) {
-      --unsettled_;
+    if (!at->second.settled) --unsettled_;
+    if (!at->second.settled || at->second.size == 0) {
       changes.push_back({at->first, FileState::Vanished, at->second.size, at->second.written_ns});
     }
     at = known_.erase(at);

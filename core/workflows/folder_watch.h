@@ -21,6 +21,7 @@ namespace spindrift {
 enum class FileState {
   Growing,   ///< new, or changed since the last look
   Settled,   ///< has stood still for long enough; told once per content
+  Empty,     ///< nothing was written into it for as long; nobody waits for it
   Vanished,  ///< gone or renamed before it settled
 };
 

@@ -624,13 +624,17 @@ bool IncomingFolder::look(double now_s) {
     const IncomingItem& item = items_[indexOf(name)];
     // Lists of touches grow by design and are read as they do; what was read needs no second look when it settles.
     const bool list = kindOf(file.file, true) == IncomingKind::Touches;
-    if (list && file.state == FileState::Settled) continue;
+    if (list && (file.state == FileState::Settled || file.state == FileState::Empty)) continue;
     again_.erase(name);
     drop(name);
     if (file.state == FileState::Vanished) {
       if (item.state == IncomingState::Waiting) {
         set(name, IncomingState::Ignored, "It vanished or was renamed before it was complete.");
       }
+      continue;
+    }
+    if (file.state == FileState::Empty) {
+      set(name, IncomingState::Waiting, "It is empty: nothing has been written into it.");
       continue;
     }
     if (file.state == FileState::Growing && !list) {

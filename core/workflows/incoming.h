@@ -204,6 +204,8 @@ class TouchFeed {
   /// times printed by a control count from there). Returns how many touches are new. Throws InputError: unusable header
   /// or template.
   std::size_t update(const std::string& name, std::string_view text, bool anew, double first_s);
+  /// Last lines without their end: nothing more comes. Returns how many touches are new.
+  std::size_t finish();
   [[nodiscard]] const LiveTouches& live() const { return live_; }
   [[nodiscard]] LiveTouches& live() { return live_; }
   /// Touches that are ready for the campaign.

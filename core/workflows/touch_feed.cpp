@@ -32,6 +32,17 @@ std::size_t TouchFeed::update(const std::string& name, std::string_view text, bo
   return fresh;
 }
 
+std::size_t TouchFeed::finish() {
+  std::size_t fresh = 0;
+  for (auto& [name, source] : sources_) {
+    for (Touch& t : source.stream.finish()) {
+      t.time_s += source.first_s;
+      if (live_.add(t)) ++fresh;
+    }
+  }
+  return fresh;
+}
+
 std::vector<std::string> TouchFeed::rowsOf(const std::vector<Touch>& touches) {
   TouchList list;
   list.touches = touches;

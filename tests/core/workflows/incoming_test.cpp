@@ -581,6 +581,38 @@ TEST_F(Incoming, WithoutAPlanNothingIsLost) {
   EXPECT_TRUE(std::filesystem::exists(campaign().path(item("a.png").stored)));
 }
 
+TEST_F(Incoming, AnEmptyFileIsToldAndNobodyWaitsForIt) {
+  put("a.jpg", "");
+  put("a.csv", "");
+  pass(3.0);
+  EXPECT_TRUE(incoming_.idle());
+  EXPECT_EQ(item("a.jpg").state, IncomingState::Waiting);
+  EXPECT_NE(item("a.jpg").sentence.find("It is empty"), std::string::npos);
+  // When something is written after all, it is taken.
+  put("a.jpg", imageBytes(1));
+  pass(3.0);
+  EXPECT_NE(item("a.jpg").state, IncomingState::Waiting) << item("a.jpg").sentence;
+}
+
+TEST(TouchFeedTest, ALastLineWithoutItsEndCountsWhenNothingMoreComes) {
+  using namespace probing_test;
+  const MachineDescription m = machineFrom(holeMachineText());
+  const VirtualRun run = runCycles(m, 1, {}, 42);
+  std::string text = run.list.csv();
+  text.pop_back();
+  TouchFeed feed(m, nullptr);
+  EXPECT_EQ(feed.update("touches.csv", text, true, 0.0), run.list.touches.size() - 1);
+  EXPECT_EQ(feed.finish(), 1U);
+  EXPECT_EQ(feed.finish(), 0U);
+  EXPECT_EQ(feed.takeFinished(true).size(), run.list.touches.size());
+  // A list with the wrong separator: no touch, and it is said of every line.
+  for (char& c : text)
+    if (c == ',') c = ';';
+  TouchFeed other(m, nullptr);
+  EXPECT_EQ(other.update("semicolons.csv", text + "\n", true, 0.0), 0U);
+  EXPECT_EQ(other.problems().size(), run.list.touches.size());
+}
+
 TEST(TouchFeedTest, TouchesOfAGrowingFileReachTheCampaignFeatureByFeature) {
   using namespace probing_test;
   testing::TempFolder folder;
