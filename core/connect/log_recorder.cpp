@@ -68,7 +68,20 @@ std::string LogRecorder::header() const {
   return text + "\n";
 }
 
+void LogRecorder::requirePast(double last_s, double now_utc_s) const {
+  const double now_s = now_utc_s - start_s_;
+  if (now_s >= 0.0 && last_s <= now_s + connections_.interval_s) return;
+  throw InputError({log_, ""},
+                   fmt::format("{} {}, and now it is {}; allowed: a log of the past, and a clock that is right.",
+                               now_s < 0.0 ? "begins at" : "ends at",
+                               utcText(now_s < 0.0 ? start_s_ : start_s_ + last_s), utcText(now_utc_s)));
+}
+
 void LogRecorder::open(double now_utc_s) {
+  // Before anything is written; what is there says itself when it begins.
+  std::error_code ignored;
+  const std::uintmax_t there = std::filesystem::file_size(log_, ignored);
+  if (ignored || there == 0) requirePast(-never, now_utc_s);
   file_ = std::make_unique<AppendFile>(log_);
   if (file_->repaired() > 0) tell(fmt::format("The last line of {} was incomplete and was removed.", log_.string()));
   double last_s = -std::numeric_limits<double>::infinity();
@@ -105,13 +118,8 @@ void LogRecorder::open(double now_utc_s) {
       begin = end + 1;
     }
   }
+  requirePast(last_s, now_utc_s);
   now_s_ = now_utc_s - start_s_;
-  if (now_s_ < 0.0 || last_s > now_s_ + connections_.interval_s) {
-    throw InputError({log_, ""},
-                     fmt::format("{} {}, and now it is {}; allowed: a log of the past, and a clock that is right.",
-                                 now_s_ < 0.0 ? "begins at" : "ends at",
-                                 utcText(now_s_ < 0.0 ? start_s_ : start_s_ + last_s), utcText(now_utc_s)));
-  }
   first_bin_ = static_cast<std::int64_t>(std::floor(now_s_ / connections_.interval_s));
   // The row of a bin stands at its end.
   if (std::isfinite(last_s))
@@ -273,7 +281,9 @@ void LogRecorder::closeBin() {
     state.reduced = reduce(c, bins_.empty() ? nothing : bins_.front().samples[c], from_s, to_s);
     if (!std::isfinite(state.reduced)) continue;
     const bool first = !std::isfinite(state.written) || !std::isfinite(previous);
-    const bool changed = !first && std::abs(state.reduced - state.written) > connections_.columns[c].dead_band;
+    // A mean of what does not change differs by what rounding makes of it.
+    const double still = std::max(connections_.columns[c].dead_band, 1e-12 * std::abs(state.written));
+    const bool changed = !first && std::abs(state.reduced - state.written) > still;
     const bool due =
         to_s - state.written_s >= connections_.longest_s && from_s >= live_from_s_[connections_.columns[c].source];
     if (!first && !changed && !due) continue;

@@ -83,6 +83,8 @@ class LogRecorder {
   };
 
   void open(double now_s);
+  /// Throws InputError: the log begins after now, or its last row lies after it.
+  void requirePast(double last_s, double now_utc_s) const;
   [[nodiscard]] std::string header() const;
   void notice(std::uint32_t source, const Notice& notice);
   void sample(std::size_t column, double time_s, double value);

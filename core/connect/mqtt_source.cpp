@@ -20,6 +20,7 @@
 
 #include "core/base/steady_seconds.h"
 #include "core/base/text.h"
+#include "core/base/untrusted_text.h"
 #include "core/connect/sparkplug.pb.h"
 #include "core/connect/tcp_connection.h"
 
@@ -226,7 +227,9 @@ class MqttSource final : public Source {
           listSparkplug(message, add);
           continue;
         }
-        const nlohmann::json json = nlohmann::json::parse(message.text, nullptr, false);
+        nlohmann::json json(nlohmann::json::value_t::discarded);
+        if (deepestJson(message.text) <= most_levels_of_json)
+          json = nlohmann::json::parse(message.text, nullptr, false);
         if (json.is_object() || json.is_array()) {
           listJson(message.topic, "", json, add);
         } else {
@@ -244,6 +247,7 @@ class MqttSource final : public Source {
     subscribed_ = true;
     topics_.clear();
     metrics_.clear();
+    units_.assign(items.size(), "");
     std::set<std::string> filters;
     for (std::uint32_t i = 0; i < items.size(); ++i) {
       const std::string& address = items[i];
@@ -291,6 +295,8 @@ class MqttSource final : public Source {
   }
 
  private:
+  using Metrics = std::map<std::pair<std::string, std::string>, std::vector<std::uint32_t>>;
+
   void check(int code, const char* what) {
     if (code == MOSQ_ERR_SUCCESS) return;
     const std::string reason = code == MOSQ_ERR_ERRNO ? std::strerror(errno) : mosquitto_strerror(code);
@@ -433,6 +439,7 @@ class MqttSource final : public Source {
       }
     }
     const bool birth = kind.ends_with("BIRTH");
+    if (birth) tellUnits(payload, device, wanted->second, sink);
     for (const sparkplug::Metric& metric : payload.metrics()) {
       Known known{device, metric.name(), metric.datatype(), unitOf(metric)};
       if (birth) {
@@ -466,14 +473,27 @@ class MqttSource final : public Source {
     }
   }
 
+  /// The units that a birth states, before its values.
+  void tellUnits(const sparkplug::Payload& birth, const std::string& device, const Metrics& metrics, RecordSink& sink) {
+    bool other = false;
+    for (const sparkplug::Metric& metric : birth.metrics()) {
+      const auto items = metrics.find({device, metric.name()});
+      if (items == metrics.end()) continue;
+      const std::string unit = unitOf(metric);
+      for (const std::uint32_t item : items->second) {
+        other = other || units_[item] != unit;
+        units_[item] = unit;
+      }
+    }
+    if (other) sink.units({units_});
+  }
+
   static std::optional<std::uint64_t> birthNumber(const sparkplug::Payload& payload) {
     for (const sparkplug::Metric& metric : payload.metrics()) {
       if (metric.name() == "bdSeq") return metric.has_long_value() ? metric.long_value() : metric.int_value();
     }
     return std::nullopt;
   }
-
-  using Metrics = std::map<std::pair<std::string, std::string>, std::vector<std::uint32_t>>;
 
   /// All of a node, or those of one device.
   static void unavailable(const Metrics& metrics, const std::string* device, RecordSink& sink) {
@@ -496,7 +516,8 @@ class MqttSource final : public Source {
   bool subscribed_ = false;
   std::deque<Message> came_;
   std::map<std::string, std::vector<std::pair<std::uint32_t, std::string>>> topics_;  ///< item and path
-  std::map<std::string, Metrics> metrics_;                                            ///< "group/node"
+  std::vector<std::string> units_;          ///< of the subscription, as births stated them
+  std::map<std::string, Metrics> metrics_;  ///< "group/node"
   std::map<std::string, Node> nodes_;
   std::set<std::string> told_;
 };

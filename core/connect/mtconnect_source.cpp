@@ -265,7 +265,11 @@ class MtconnectSource final : public Source {
     return {nullptr, part};
   }
 
-  void gatherItems(const pugi::xml_node& component, const std::string& above) {
+  void gatherItems(const pugi::xml_node& component, const std::string& above, int level = 0) {
+    constexpr int most_levels = 64;
+    if (level > most_levels)
+      throw ConnectionError(
+          fmt::format("{} describes components nested more than {} levels deep.", options_.url, most_levels));
     std::string name = component.attribute("name").value();
     if (name.empty()) name = localName(component);
     const std::string path = above.empty() ? name : above + " / " + name;
@@ -286,7 +290,7 @@ class MtconnectSource final : public Source {
           if (!out.address.empty()) items_.push_back(std::move(out));
         }
       } else if (localName(part) == "Components") {
-        for (const pugi::xml_node child : part.children()) gatherItems(child, path);
+        for (const pugi::xml_node child : part.children()) gatherItems(child, path, level + 1);
       }
     }
   }

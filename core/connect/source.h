@@ -35,6 +35,8 @@ class RecordSink {
   /// The same of these items only.
   virtual void missedOf(const std::vector<std::uint32_t>& items, const std::string& why) = 0;
   virtual void note(const std::string& sentence) = 0;
+  /// Of the subscription, where a source learns them only from what it is sent.
+  virtual void units(ItemUnits /*learnt*/) {}
 };
 
 class Source {

@@ -61,6 +61,8 @@ struct SourceRunner::Shared final : RecordSink {
     (void)push(Notice{Notice::Kind::Missed, last_time_s > 0.0 ? last_time_s : now, now, why, which});
   }
 
+  void units(ItemUnits learnt) override { (void)push(std::move(learnt)); }
+
   void note(const std::string& sentence) override {
     (void)push(Notice{Notice::Kind::Note, localUtc(), localUtc(), sentence});
   }

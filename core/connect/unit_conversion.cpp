@@ -24,7 +24,12 @@ constexpr double pi = std::numbers::pi;
 constexpr std::array units{Unit{"celsius", Dimension::Temperature, 1.0},
                            Unit{"degc", Dimension::Temperature, 1.0},
                            Unit{"°c", Dimension::Temperature, 1.0},
+                           Unit{"cel", Dimension::Temperature, 1.0},
+                           Unit{"c", Dimension::Temperature, 1.0},
+                           Unit{"f", Dimension::Temperature, 5.0 / 9.0, -160.0 / 9.0},
+                           Unit{"degree_celsius", Dimension::Temperature, 1.0},
                            Unit{"fahrenheit", Dimension::Temperature, 5.0 / 9.0, -160.0 / 9.0},
+                           Unit{"degree_fahrenheit", Dimension::Temperature, 5.0 / 9.0, -160.0 / 9.0},
                            Unit{"degf", Dimension::Temperature, 5.0 / 9.0, -160.0 / 9.0},
                            Unit{"°f", Dimension::Temperature, 5.0 / 9.0, -160.0 / 9.0},
                            Unit{"kelvin", Dimension::Temperature, 1.0, -273.15},
@@ -32,12 +37,15 @@ constexpr std::array units{Unit{"celsius", Dimension::Temperature, 1.0},
                            Unit{"millimeter", Dimension::Length, 1.0},
                            Unit{"mm", Dimension::Length, 1.0},
                            Unit{"micrometer", Dimension::Length, 1e-3},
+                           Unit{"micron", Dimension::Length, 1e-3},
+                           Unit{"µm", Dimension::Length, 1e-3},
                            Unit{"um", Dimension::Length, 1e-3},
                            Unit{"nanometer", Dimension::Length, 1e-6},
                            Unit{"nm", Dimension::Length, 1e-6},
                            Unit{"meter", Dimension::Length, 1e3},
                            Unit{"m", Dimension::Length, 1e3},
                            Unit{"inch", Dimension::Length, 25.4},
+                           Unit{"foot", Dimension::Length, 304.8},
                            Unit{"in", Dimension::Length, 25.4},
                            Unit{"radian", Dimension::Angle, 1.0},
                            Unit{"rad", Dimension::Angle, 1.0},
@@ -48,6 +56,9 @@ constexpr std::array units{Unit{"celsius", Dimension::Temperature, 1.0},
                            Unit{"revolution/minute", Dimension::Rotation, 1.0},
                            Unit{"rpm", Dimension::Rotation, 1.0},
                            Unit{"1/min", Dimension::Rotation, 1.0},
+                           Unit{"r/min", Dimension::Rotation, 1.0},
+                           Unit{"rev/min", Dimension::Rotation, 1.0},
+                           Unit{"1/s", Dimension::Rotation, 60.0},
                            Unit{"revolution/second", Dimension::Rotation, 60.0},
                            Unit{"degree/second", Dimension::Rotation, 1.0 / 6.0},
                            Unit{"millimeter/second", Dimension::Speed, 60.0},
@@ -57,7 +68,10 @@ constexpr std::array units{Unit{"celsius", Dimension::Temperature, 1.0},
                            Unit{"mm_min", Dimension::Speed, 1.0},
                            Unit{"m/min", Dimension::Speed, 1e3},
                            Unit{"m_min", Dimension::Speed, 1e3},
+                           Unit{"m/s", Dimension::Speed, 6e4},
                            Unit{"inch/minute", Dimension::Speed, 25.4},
+                           Unit{"foot/minute", Dimension::Speed, 304.8},
+                           Unit{"feet/minute", Dimension::Speed, 304.8},
                            Unit{"inch/second", Dimension::Speed, 1524.0},
                            Unit{"percent", Dimension::Ratio, 0.01},
                            Unit{"%", Dimension::Ratio, 0.01},
@@ -98,8 +112,8 @@ bool isKnownUnit(std::string_view unit) {
 std::optional<UnitConversion> conversionInto(std::string_view column, std::string_view unit) {
   const Unit* from = find(unit);
   const Unit* to = find(unitOfColumn(column));
-  if (from == nullptr || to == nullptr) return UnitConversion{};
-  if (from->dimension != to->dimension) return std::nullopt;
+  if (unit.empty() || to == nullptr) return UnitConversion{};
+  if (from == nullptr || from->dimension != to->dimension) return std::nullopt;
   return UnitConversion{from->scale / to->scale, (from->offset - to->offset) / to->scale};
 }
 

@@ -17,6 +17,7 @@ struct Collected final : RecordSink {
   void missed(const std::string& why) override { missings.push_back(why); }
   void missedOf(const std::vector<std::uint32_t>&, const std::string& why) override { missings.push_back(why); }
   void note(const std::string& sentence) override { notes.push_back(sentence); }
+  void units(ItemUnits learnt) override { item_units = std::move(learnt.units); }
 
   /// Values of an item in the order of delivery.
   [[nodiscard]] std::vector<double> values(std::uint32_t item = 0) const {
@@ -30,6 +31,7 @@ struct Collected final : RecordSink {
   std::vector<Record> records;
   std::vector<std::string> missings;
   std::vector<std::string> notes;
+  std::vector<std::string> item_units;
 };
 
 /// Waits until `done()`; false after `patience_s`.

@@ -152,6 +152,13 @@ TEST(Connections, UnitsBecomeThoseOfTheColumn) {
   EXPECT_NEAR(at("feed_x_m_min", "MILLIMETER/MINUTE", 300.0), 0.3, 1e-9);
   EXPECT_EQ(at("whatever", "CELSIUS", 3.0), 3.0);
   EXPECT_EQ(at("pos_x_mm", "CELSIUS", 3.0), -1e9);
+  EXPECT_NEAR(at("pos_x_mm", "MICRON", 250.0), 0.25, 1e-12);
+  EXPECT_NEAR(at("feed_x_mm_min", "FEET/MINUTE", 2.0), 609.6, 1e-9);
+  EXPECT_NEAR(at("T_a_degC", "DEGREE_FAHRENHEIT", 212.0), 100.0, 1e-9);
+  // A unit that is stated and not known is none; of a column without a unit any will do.
+  EXPECT_EQ(at("pos_x_mm", "CUBIT", 3.0), -1e9);
+  EXPECT_EQ(at("coolant", "CUBIT", 3.0), 3.0);
+  EXPECT_EQ(at("pos_x_mm", "", 3.0), 3.0);
   EXPECT_EQ(unitOfColumn("feed_x_mm_min"), "mm_min");
   EXPECT_EQ(unitOfColumn("T_room_degC"), "degC");
   EXPECT_EQ(unitOfColumn("coolant"), "");

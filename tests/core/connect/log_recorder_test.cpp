@@ -160,6 +160,29 @@ TEST(LogRecorder, WordsUnitsAndNonsense) {
   EXPECT_EQ(recorder.status().sentences.size(), 3U);
 }
 
+TEST(LogRecorder, OneThatWouldBeginLaterWritesNothing) {
+  const TempFolder folder;
+  EXPECT_THAT(refusal([&] { LogRecorder(mapping({"S"}), folder / "log.csv", t0 + 1e6, t0); }), HasSubstr("begins at"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "log.csv"));
+  LogRecorder recorder(mapping({"S"}), folder / "log.csv", t0, t0);
+  recorder.finish(t0 + 1.0);
+}
+
+TEST(LogRecorder, WhatDoesNotChangeIsWrittenOnce) {
+  const TempFolder folder;
+  LogRecorder recorder(mapping({"T_a_degC"}), folder / "log.csv", t0, t0);
+  recorder.take(said(Notice::Kind::Connected, 0.0));
+  // Means over intervals that the readings cut differently are not the same in the last digit.
+  for (int i = 0; i < 300; ++i) {
+    recorder.take(value(0, 0.1 + 0.173 * i, 98.6));
+    recorder.advance(t0 + 0.173 * i);
+  }
+  recorder.finish(t0 + 55.0);
+  const OperatingLog log = OperatingLog::read(folder / "log.csv");
+  EXPECT_NEAR(log.at("T_a_degC", 30.0), 98.6, 1e-9);
+  EXPECT_LE(recorder.status().rows, 2U);
+}
+
 TEST(LogRecorder, LateValuesAreNotLost) {
   const TempFolder folder;
   LogRecorder recorder(mapping({"S", "U"}), folder / "log.csv", t0, t0);

@@ -117,11 +117,12 @@ TEST(Mqtt, ListingShowsTopicsPathsAndBirths) {
   peer.publish("hall/temperature", "21.5", true);
   peer.publish("umati/mill", R"({"a":{"b":[1,2]}})", true);
   peer.publish("spBv1.0/G/NBIRTH/N", payload(0, {{"T/spindle", 30.0}}), true);
+  peer.publish("deep", std::string(300'000, '['), true);
   const auto source = makeMqttSource(optionsFor(broker));
   source->connect({});
   std::vector<std::string> found;
   for (const DataItem& item : source->list(0.5, {})) found.push_back(item.address + " " + item.unit);
-  EXPECT_THAT(found, ElementsAre("hall/temperature ", "spBv1.0/G/N#T/spindle degC", "umati/mill#a.b[0] ",
+  EXPECT_THAT(found, ElementsAre("deep ", "hall/temperature ", "spBv1.0/G/N#T/spindle degC", "umati/mill#a.b[0] ",
                                  "umati/mill#a.b[1] "));
 }
 
@@ -145,6 +146,7 @@ TEST(Mqtt, SparkplugBirthsDataGapsAndDeaths) {
   publish("NDATA/N", payload(2, {}, {{1, 21.0}}));
   publish("DDATA/N/D", payload(3, {}, {{2, 2.0}}));
   EXPECT_EQ(sink.values(1), (std::vector<double>{1.0, 2.0}));
+  EXPECT_THAT(sink.item_units, ElementsAre("degC", "degC"));  // as the births state them
   EXPECT_THAT(sink.missings, ::testing::IsEmpty());
   publish("NDATA/N", payload(5, {}, {{1, 99.0}}));  // 4 is missing
   ASSERT_EQ(sink.missings.size(), 1U);
