@@ -1697,10 +1697,6 @@
         <translation>Die Punktwolke</translation>
     </message>
     <message>
-        <source>The clouds do not fit: root mean square distance {:.3g} mm.</source>
-        <translation>Die Punktwolken passen nicht: quadratischer Mittelwert des Abstands {:.3g} mm.</translation>
-    </message>
-    <message>
         <source>The column warms as a whole and grows from its base: the head rises, more so the higher it stands on the column.</source>
         <translation>Der Ständer erwärmt sich als Ganzes und dehnt sich von seinem Fuß nach oben aus: der Spindelkopf steigt, umso mehr, je höher er am Ständer steht.</translation>
     </message>
@@ -9033,10 +9029,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>die gespeicherte Diskrepanz enthält für {} von {} Listen ungleicher Länge; erneut suchen.</translation>
     </message>
     <message>
-        <source>the stored evaluation cannot be read ({}); evaluate again.</source>
-        <translation>die gespeicherte Auswertung kann nicht gelesen werden ({}); erneut auswerten.</translation>
-    </message>
-    <message>
         <source>the time offset of {} cannot be read ({}).</source>
         <translation>der Zeitversatz von {} kann nicht gelesen werden ({}).</translation>
     </message>
@@ -11979,6 +11971,50 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>{:.0f} % of the readings of {} lie more than {:.0f} times as far off as the others: too many to be down-weighted; check how they were taken before you rely on a named effect.</source>
         <translation>{:.0f} % der Messwerte von {} liegen mehr als {:.0f}-mal so weit entfernt wie die übrigen: zu viele, um sie geringer zu gewichten; ihre Entstehung prüfen, bevor man sich auf einen benannten Effekt verlässt.</translation>
+    </message>
+    <message>
+        <source>{} describes components nested more than {} levels deep.</source>
+        <translation>{} beschreibt Komponenten, die mehr als {} Ebenen tief verschachtelt sind.</translation>
+    </message>
+    <message>
+        <source>No other cycle has the places of {} of {} at a table angle of {:g}°: they are compared with nothing.</source>
+        <translation>Kein anderer Zyklus hat die Orte von {} von {} beim Tischwinkel {:g}°: sie werden mit nichts verglichen.</translation>
+    </message>
+    <message>
+        <source>Touches of one place have one c_deg in all cycles, here {:g}° and {:g}°.</source>
+        <translation>Antastungen eines Ortes haben in allen Zyklen dasselbe c_deg, hier {:g}° und {:g}°.</translation>
+    </message>
+    <message>
+        <source>The clouds do not fit: {:.0f} % of the points lie on the surface of the reference, half of all less than {:.3g} mm from it; at least {:.0f} % are needed.</source>
+        <translation>Die Punktwolken passen nicht zusammen: {:.0f} % der Punkte liegen auf der Fläche der Referenz, die Hälfte aller weniger als {:.3g} mm von ihr entfernt; nötig sind mindestens {:.0f} %.</translation>
+    </message>
+    <message>
+        <source>The campaign {} was in the folder of the session and not in its database (one from before it was imported?): it is there again, without results.</source>
+        <translation>Die Kampagne {} lag im Ordner der Sitzung und stand nicht in ihrer Datenbank (einer aus der Zeit vor dem Import?): sie ist wieder da, ohne Ergebnisse.</translation>
+    </message>
+    <message>
+        <source>The folder campaigns/{} is no campaign of the session and was left as it is.</source>
+        <translation>Der Ordner campaigns/{} ist keine Kampagne der Sitzung und blieb, wie er ist.</translation>
+    </message>
+    <message>
+        <source>The stored result cannot be read. Run it again.</source>
+        <translation>Das gespeicherte Ergebnis ist nicht lesbar. Neu ausführen.</translation>
+    </message>
+    <message>
+        <source>the stored evaluation cannot be read; evaluate again.</source>
+        <translation>die gespeicherte Auswertung ist nicht lesbar; neu auswerten.</translation>
+    </message>
+    <message>
+        <source>1 line cannot be read</source>
+        <translation>1 Zeile ist nicht lesbar</translation>
+    </message>
+    <message>
+        <source>{} lines cannot be read</source>
+        <translation>{} Zeilen sind nicht lesbar</translation>
+    </message>
+    <message>
+        <source>It is empty: nothing has been written into it.</source>
+        <translation>Sie ist leer: es wurde nichts hineingeschrieben.</translation>
     </message>
 </context>
 <context>
@@ -17818,12 +17854,12 @@ ihrem Ordner und führen nicht hinaus.
         <translation>Es wurde keine Datei geschrieben. %1</translation>
     </message>
     <message>
-        <source>on held-out data; on fitted data %1</source>
-        <translation>an Validierungsdaten; an angepassten Daten %1</translation>
-    </message>
-    <message>
         <source>No file was written. Changed since the compensation was calculated: %1.</source>
         <translation>Keine Datei wurde geschrieben. Geändert seit der Berechnung der Kompensation: %1.</translation>
+    </message>
+    <message>
+        <source>on held-out data; on fitted data %1</source>
+        <translation>an Validierungsdaten; an angepassten Daten %1</translation>
     </message>
 </context>
 <context>
@@ -22115,10 +22151,6 @@ ihrem Ordner und führen nicht hinaus.
         <translation>Programm</translation>
     </message>
     <message>
-        <source>How it was found</source>
-        <translation>Wie es gefunden wurde</translation>
-    </message>
-    <message>
         <source>Effect tried</source>
         <translation>Geprüfter Effekt</translation>
     </message>
@@ -22221,6 +22253,10 @@ ihrem Ordner und führen nicht hinaus.
     <message>
         <source>Nothing to measure next: no rival fits as well as the named effect.</source>
         <translation>Als Nächstes ist nichts zu messen: Keine konkurrierende Erklärung passt so gut wie der benannte Effekt.</translation>
+    </message>
+    <message>
+        <source>How it was found</source>
+        <translation>Wie es gefunden wurde</translation>
     </message>
 </context>
 <context>
@@ -26630,10 +26666,6 @@ ihrem Ordner und führen nicht hinaus.
         <translation>Ziel für Verschiebungen</translation>
     </message>
     <message>
-        <source>and</source>
-        <translation>und</translation>
-    </message>
-    <message>
         <source>Goal of rotations</source>
         <translation>Ziel für Drehungen</translation>
     </message>
@@ -26751,6 +26783,10 @@ ihrem Ordner und führen nicht hinaus.
     <message>
         <source>not decided</source>
         <translation>unentschieden</translation>
+    </message>
+    <message>
+        <source>and</source>
+        <translation>und</translation>
     </message>
 </context>
 <context>

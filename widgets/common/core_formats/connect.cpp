@@ -109,6 +109,7 @@ std::span<const char* const> spindrift::gui::core_formats::connect() noexcept {
     QT_TRANSLATE_NOOP("core", "{} cannot be put aside: {}."),
     QT_TRANSLATE_NOOP("core", "{} cannot be set up as a serial line: {}."),
     QT_TRANSLATE_NOOP("core", "{} cannot be written: {}."),
+    QT_TRANSLATE_NOOP("core", "{} describes components nested more than {} levels deep."),
     QT_TRANSLATE_NOOP("core", "{} does not answer as a broker."),
     QT_TRANSLATE_NOOP("core", "{} ended the stream{}."),
     QT_TRANSLATE_NOOP("core", "{} ended: {}."),

@@ -43,7 +43,7 @@ std::span<const char* const> spindrift::gui::core_formats::scanning() noexcept {
     QT_TRANSLATE_NOOP("core", "Steepest slope: found {}; allowed: more than 0."),
     QT_TRANSLATE_NOOP("core", "The circle of the pocket must be four numbers x,y,z,r (mm)."),
     QT_TRANSLATE_NOOP("core", "The cloud"),
-    QT_TRANSLATE_NOOP("core", "The clouds do not fit: root mean square distance {:.3g} mm."),
+    QT_TRANSLATE_NOOP("core", "The clouds do not fit: {:.0f} % of the points lie on the surface of the reference, half of all less than {:.3g} mm from it; at least {:.0f} % are needed."),
     QT_TRANSLATE_NOOP("core", "The distance trimmed at an edge must not be negative (mm)."),
     QT_TRANSLATE_NOOP("core", "The fit of the pocket's rim did not settle."),
     QT_TRANSLATE_NOOP("core", "The height of a step must be positive (mm)."),

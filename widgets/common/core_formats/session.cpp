@@ -10,6 +10,8 @@ std::span<const char* const> spindrift::gui::core_formats::session() noexcept {
   static const char* const formats[] = {
     QT_TRANSLATE_NOOP("core", " {} now in the folder \"removed\"."),
     QT_TRANSLATE_NOOP("core", " {} removed."),
+    QT_TRANSLATE_NOOP("core", "The campaign {} was in the folder of the session and not in its database (one from before it was imported?): it is there again, without results."),
+    QT_TRANSLATE_NOOP("core", "The folder campaigns/{} is no campaign of the session and was left as it is."),
     QT_TRANSLATE_NOOP("core", "The session was not closed the last time; it is as it was left: {} and {} are there."),
     QT_TRANSLATE_NOOP("core", "a result"),
     QT_TRANSLATE_NOOP("core", "and {} more"),

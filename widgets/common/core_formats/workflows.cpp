@@ -95,6 +95,7 @@ std::span<const char* const> spindrift::gui::core_formats::workflows() noexcept 
     QT_TRANSLATE_NOOP("core", "It has the same content as {}."),
     QT_TRANSLATE_NOOP("core", "It is being written: {} bytes so far."),
     QT_TRANSLATE_NOOP("core", "It is driven by: {}."),
+    QT_TRANSLATE_NOOP("core", "It is empty: nothing has been written into it."),
     QT_TRANSLATE_NOOP("core", "It is there already."),
     QT_TRANSLATE_NOOP("core", "It vanished or was renamed before it was complete."),
     QT_TRANSLATE_NOOP("core", "Jogs"),
