@@ -151,7 +151,7 @@ void addWatch(CLI::App& app, CommandLine& line) {
   CLI::App* command =
       addCommand(app, line, "watch",
                  "Import captures into a session as they arrive in a folder; each is checked immediately. Exit status "
-                 "1: captures have to be repeated, or planned items are missing",
+                 "1: captures have to be repeated, planned items are missing, or lines of touches cannot be read",
                  [a, &line](JobContext& job) { return watch(*a, line.json_file != "-", job); });
   command->add_option("FOLDER", a->folder, "Folder into which camera, control or profiler writes")->required();
   command->add_option("--session", a->session, "Folder of the session; created if it does not exist")->required();

@@ -51,7 +51,11 @@ void TouchStream::readLine(std::string_view whole, std::vector<Touch>& fresh) {
     SourcePlace where = e.where();
     // A row of a list was read by itself, as the second line of a text.
     if (printed_ == nullptr && where.line == 2) where.line = lines_;
-    problems_.push_back({lines_, InputError(where, e.sentence()).what()});
+    std::string sentence = InputError(where, e.sentence()).what();
+    // A header that cannot be used is wrong once, and not in every row.
+    const bool of_header = printed_ == nullptr && where.line == 1;
+    if (of_header && !problems_.empty() && problems_.back().sentence == sentence) return;
+    problems_.push_back({lines_, std::move(sentence)});
   }
 }
 

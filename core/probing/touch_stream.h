@@ -35,7 +35,7 @@ class TouchStream {
   [[nodiscard]] std::vector<Touch> finish() { return rest_.empty() ? std::vector<Touch>() : update("\n"); }
   /// The file was written anew: the next update brings its beginning. The receiver knows which touches it has.
   void restart();
-  /// Lines that could not be read, in order.
+  /// Lines that could not be read, in order; of a header that cannot be used, once for the list.
   [[nodiscard]] const std::vector<StreamProblem>& problems() const { return problems_; }
   /// True if the last line is not complete yet.
   [[nodiscard]] bool waiting() const { return !rest_.empty(); }

@@ -204,6 +204,24 @@ TEST(Mtconnect, ABufferThatHasRunOverIsToldAndLeftBehind) {
   EXPECT_THAT(sink.missings[0], HasSubstr("no longer has"));
 }
 
+TEST(Mtconnect, ComponentsThatAreTooDeepAreOneSentence) {
+  SmallAgent agent;
+  SmallAgent::Manners manners;
+  manners.levels = 40;
+  agent.set(manners);
+  const auto source = makeMtconnectSource(quick(agent));
+  source->connect({});
+  EXPECT_THAT(source->list(0.0, {}), SizeIs(6));
+  manners.levels = 100'000;
+  agent.set(manners);
+  try {
+    source->connect({});
+    FAIL() << "it was read";
+  } catch (const ConnectionError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("describes components nested more than 64 levels deep"));
+  }
+}
+
 TEST(Mtconnect, ASilentAgentAndNonsenseAreConnectionsLost) {
   SmallAgent agent;
   agent.observe("S1", "1", agent_t0);

@@ -143,6 +143,11 @@ std::string SmallAgent::header(std::uint64_t next) const {
 
 std::string SmallAgent::probe() const {
   const std::string& p = manners_.prefix;
+  std::string begin, end;
+  for (std::size_t i = 0; i < manners_.levels; ++i) {
+    begin += fmt::format("<{0}Components><{0}Part>", p);
+    end += fmt::format("</{0}Part></{0}Components>", p);
+  }
   return fmt::format(
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<{0}MTConnectDevices xmlns{2}=\"urn:mtconnect.org:MTConnectDevices:"
       "{1}\">{3}<{0}Devices><{0}Device id=\"d\" uuid=\"u1\" name=\"mill\"><{0}DataItems><{0}DataItem id=\"C1\" "
@@ -154,9 +159,9 @@ std::string SmallAgent::probe() const {
       "type=\"PATH_POSITION\" units=\"MILLIMETER_3D\"/><{0}DataItem id=\"V1\" category=\"SAMPLE\" "
       "type=\"DISPLACEMENT\" "
       "representation=\"TIME_SERIES\" units=\"MILLIMETER\"/><{0}DataItem id=\"EXEC\" category=\"EVENT\" "
-      "type=\"EXECUTION\"/></{0}DataItems></{0}Rotary></{0}Components></{0}Axes></{0}Components></{0}Device>"
+      "type=\"EXECUTION\"/></{0}DataItems></{0}Rotary></{0}Components></{0}Axes></{0}Components>{4}{5}</{0}Device>"
       "</{0}Devices></{0}MTConnectDevices>",
-      p, manners_.version, p.empty() ? "" : ":m", header(next_));
+      p, manners_.version, p.empty() ? "" : ":m", header(next_), begin, end);
 }
 
 std::string SmallAgent::document(bool current, std::uint64_t from, std::uint64_t& next) const {

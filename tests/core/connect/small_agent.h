@@ -23,6 +23,7 @@ class SmallAgent {
     bool lower_case = false;           ///< names of the headers
     std::size_t buffer = 1024;         ///< observations kept
     std::size_t most_parts = 1 << 30;  ///< of one stream, then the connection is cut within a document
+    std::size_t levels = 0;            ///< of components without items that stand in each other
     std::size_t pad = 0;               ///< documents are filled up to a multiple of this
   };
   SmallAgent();
