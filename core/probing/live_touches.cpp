@@ -283,7 +283,9 @@ bool LiveTouches::waitsForOthers(const LiveTouch& live) const {
          isSurfaceTouch(live.touch, HoleBarSetup::of(machine_, *artefact).rotary_direction);
 }
 
-bool LiveTouches::add(const Touch& touch) {
+bool LiveTouches::add(const Touch& given) {
+  Touch touch = given;
+  touch.c_deg = angles_.placeOf(given.c_deg);
   const std::string id = touch.cycle + "|" + keyOf(touch);
   const auto before = index_.find(id);
   if (before != index_.end()) {

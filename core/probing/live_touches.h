@@ -69,7 +69,7 @@ class LiveTouches {
   /// Number of touches in the first cycle, if a plan says so.
   void expect(int touches) { planned_ = touches; }
   /// Judges a touch; false if it is known already (the file was read again).
-  bool add(const Touch& touch);
+  bool add(const Touch& given);
 
   [[nodiscard]] const std::vector<LiveTouch>& touches() const { return touches_; }
   /// Indices of touches that are not settled: not given out yet, or to be taken again.
@@ -115,6 +115,7 @@ class LiveTouches {
   std::map<std::string, std::array<RunningMedian, 3>> first_ball_;  ///< artefact -> where touches put the first ball
   std::map<std::string, double> last_time_;                         ///< per artefact
   int planned_ = 0;
+  TableAngles angles_;
 };
 
 }  // namespace spindrift

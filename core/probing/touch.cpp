@@ -8,6 +8,7 @@
 #include <cmath>
 #include <map>
 #include <unordered_set>
+#include <utility>
 
 #include "core/base/atomic_file.h"
 #include "core/base/csv.h"
@@ -52,6 +53,14 @@ Handedness handednessOf(const std::vector<Eigen::Vector3d>& certified_mm,
 
 }  // namespace
 
+double TableAngles::placeOf(double c_deg) {
+  constexpr double parts = 1e6;
+  const long long half = std::llround(180.0 * parts);
+  long long left = std::llround(std::remainder(c_deg, 360.0) * parts);
+  if (left == -half) left = half;
+  return first_.try_emplace(left, c_deg).first->second;
+}
+
 std::string Touch::label() const {
   std::string text = fmt::format("{} {}/{} {} at {} deg, touch {}", cycle, artefact, feature, stylus, c_deg, touch);
   if (line > 0) text += fmt::format(" (line {})", line);
@@ -92,6 +101,11 @@ TouchList TouchList::parse(std::string text, const std::filesystem::path& file) 
   if (table.rowCount() == 0) throw InputError({file, ""}, "holds no touches; allowed: at least one row.");
   std::map<std::string, double, std::less<>> last_time;
   std::unordered_set<std::string> keys;
+  const auto isNew = [&](const Touch& t) {
+    return keys.insert(fmt::format("{}|{}|{}|{}|{}|{}", t.cycle, t.artefact, t.feature, t.stylus, t.c_deg, t.touch))
+        .second;
+  };
+  TableAngles angles;
   list.touches.reserve(table.rowCount());
   for (std::size_t row = 0; row < table.rowCount(); ++row) {
     Touch t;
@@ -140,8 +154,10 @@ TouchList TouchList::parse(std::string text, const std::filesystem::path& file) 
           fmt::format("duplicate time {} s of artefact {}; allowed: one touch at a time.", t.time_s, t.artefact));
     }
     last->second = t.time_s;
-    if (!keys.insert(fmt::format("{}|{}|{}|{}|{}|{}", t.cycle, t.artefact, t.feature, t.stylus, t.c_deg, t.touch))
-             .second) {
+    const double written_deg = std::exchange(t.c_deg, angles.placeOf(t.c_deg));
+    const bool at_place = isNew(t);
+    if (!at_place) t.c_deg = written_deg;
+    if (!at_place && (t.c_deg == angles.placeOf(written_deg) || !isNew(t))) {
       throw InputError(
           table.place(row),
           fmt::format(

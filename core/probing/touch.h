@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 #include <filesystem>
+#include <map>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -18,6 +19,16 @@ namespace spindrift {
 
 /// A table that counts on has turned no further than this; larger angles are no angles.
 inline constexpr double most_turned_deg = 36000.0;
+
+/// Table angles of places: a table that counts on has the same place with whole turns between, and touches of one place
+/// have one angle, the first that was seen of it. Whole turns alone are 0.
+class TableAngles {
+ public:
+  [[nodiscard]] double placeOf(double c_deg);
+
+ private:
+  std::map<long long, double> first_{{0, 0.0}};  ///< by what is left without whole turns, in 1e-6 deg
+};
 
 struct Touch {
   double time_s = 0.0;  ///< since the campaign start
@@ -45,7 +56,8 @@ struct TouchList {
   std::filesystem::path file;
 
   /// Reads and checks the list on its own: columns, finite numbers, approach vectors of length one, time that increases
-  /// within an artefact, no touch twice. Throws InputError.
+  /// within an artefact, no touch twice. Angles are those of places (TableAngles), unless a cycle has a place at both.
+  /// Throws InputError.
   [[nodiscard]] static TouchList read(const std::filesystem::path& file);
   /// The same from text; `name` stands for the file in messages.
   [[nodiscard]] static TouchList parse(std::string text, const std::filesystem::path& name);

@@ -171,6 +171,46 @@ TEST(LiveTouches, ALaterSurfaceTouchIsHeldAgainstTheChangesOfTheOthers) {
   EXPECT_NE(live.retakes().front().find("M1, H6 again, touch 4"), std::string::npos) << live.retakes().front();
 }
 
+TEST(LiveTouches, ATableThatCountsOnIsHeldAgainstTheSamePlace) {
+  const MachineDescription m = machineFrom(holeMachineText());
+  const VirtualRun run = runCycles(m, 2, {}, 54);
+  double turned_deg = 0.0;
+  for (const Touch& t : run.list.touches) turned_deg = std::max(turned_deg, t.c_deg);
+  ASSERT_GT(turned_deg, 0.0);
+  const auto retakes = [&](double turns_deg, double wrong_mm) {
+    LiveTouches live(m);
+    for (Touch t : run.list.touches) {
+      if (t.cycle == "M1" && t.touch == 1 && t.c_deg == turned_deg) t.position_mm += wrong_mm * t.approach;
+      if (t.cycle == "M1") t.c_deg += turns_deg;
+      live.add(t);
+    }
+    if (wrong_mm == 0.0) {
+      EXPECT_EQ(live.progress().done, static_cast<int>(run.list.touches.size() / 2));
+    }
+    return live.retakes();
+  };
+  EXPECT_TRUE(retakes(-360.0, 0.0).empty());
+  EXPECT_EQ(retakes(0.0, 0.06).size(), 1U);
+  EXPECT_EQ(retakes(-360.0, 0.06), retakes(0.0, 0.06));
+}
+
+TEST(TouchList, APlaceThatACycleHasAtBothAnglesIsReadAtBoth) {
+  const std::string head = "time_s,cycle,artefact,feature,stylus,c_deg,touch,x_mm,y_mm,z_mm,nx,ny,nz\n";
+  const TouchList both =
+      TouchList::parse(head + "0,M0,bar,H1,p0,-90,0,1,2,3,1,0,0\n1,M0,bar,H1,p0,270,0,1,2,3,1,0,0\n", "touches.csv");
+  ASSERT_EQ(both.touches.size(), 2U);
+  EXPECT_EQ(both.touches[0].c_deg, -90.0);
+  EXPECT_EQ(both.touches[1].c_deg, 270.0);
+  const TouchList later =
+      TouchList::parse(head + "0,M0,bar,H1,p0,-90,0,1,2,3,1,0,0\n1,M1,bar,H1,p0,270,0,1,2,3,1,0,0\n", "touches.csv");
+  EXPECT_EQ(later.touches[1].c_deg, -90.0);
+  EXPECT_THROW((void)TouchList::parse(head + "0,M0,bar,H1,p0,-90,0,1,2,3,1,0,0\n1,M0,bar,H1,p0,-90,0,1,2,3,1,0,0\n",
+                                      "touches.csv"),
+               InputError);
+  // Whole turns alone are none.
+  EXPECT_EQ(TouchList::parse(head + "0,M0,bar,H1,p0,360,0,1,2,3,1,0,0\n", "touches.csv").touches[0].c_deg, 0.0);
+}
+
 // Stated rate of false alarms: below one in 10,000 touches, with surfaces that differ by 5 um (one sigma) and a machine
 // that drifts by 25 um and 25 urad between cycles.
 TEST(LiveTouches, HonestDriftIsNotSuspect) {
