@@ -11,6 +11,7 @@
 #include <map>
 
 #include "core/base/error.h"
+#include "core/base/text.h"
 #include "core/base/utc_time.h"
 #include "core/machine/campaign.h"
 #include "core/plant/plant_connection.h"
@@ -200,7 +201,15 @@ Publication beginPublication(const Session& session, const std::vector<CampaignS
     for (const std::string& kind : session.resultKinds(state.id)) {
       const StoredResult* stored = graph.latest(kind);
       if (stored == nullptr) continue;
-      if (std::optional<PlantResult> r = plantResult(*stored)) pending.results.push_back(std::move(*r));
+      std::optional<PlantResult> r = plantResult(*stored);
+      if (!r) continue;
+      pending.results.push_back(std::move(*r));
+      if (graph.holds(*stored)) continue;
+      const TaskKind* task = taskKind(kind);
+      p.warnings.push_back(fmt::format(
+          "Published although it is outdated: {} of {}. Changed since: {}. Run it again, and publish again.",
+          task != nullptr ? task->result : std::string_view(kind), pending.record.name,
+          joinedList(graph.changes(*stored))));
     }
     p.pending.push_back(std::move(pending));
   }
@@ -228,9 +237,10 @@ PublishOutcome sendPublication(Publication& p, const PlantAddress& address, cons
   }
   p.pending.clear();
   PublishOutcome outcome;
+  outcome.warnings = p.warnings;
   try {
     PlantStore plant = PlantStore::openOrMake(address, opening);
-    outcome.warnings = plant.warnings();
+    outcome.warnings.insert(outcome.warnings.end(), plant.warnings().begin(), plant.warnings().end());
     outcome.count = plant.publish(p.campaigns);
   } catch (const PlantUnreachable& failure) {
     outcome.waiting = p.campaigns.size();

@@ -34,13 +34,13 @@ struct PublishOutcome {
   PublishCount count;
   std::size_t waiting = 0;            ///< campaigns that wait in the session, because the store cannot be reached
   std::string reason;                 ///< why they wait; empty: nothing waits
-  std::vector<std::string> warnings;  ///< of the store, such as a wrong clock
+  std::vector<std::string> warnings;  ///< results that do not hold; of the store, such as a wrong clock
 };
 
 /// Publishing in parts, so that a window does not wait for files and servers: campaigns are read on any thread
 /// (CampaignState::read), the publication begins and ends where the session is used, and is sent on any thread. Of
 /// every kind the newest result that holds is published, as everything else uses it (TaskGraph::latest); of a kind of
-/// which none holds, the newest.
+/// which none holds, the newest, and a warning says so.
 struct Publication {
   struct Pending {
     CampaignRecord record;
@@ -50,6 +50,7 @@ struct Publication {
   std::string store;
   std::vector<Pending> pending;
   std::vector<PlantCampaign> campaigns;  ///< what waits already; `sendPublication` adds the pending ones
+  std::vector<std::string> warnings;     ///< results that do not hold, one sentence each
   bool waited = false;
 };
 /// `campaigns` as they were read from this session. Throws InputError: a result cannot be read.

@@ -63,11 +63,20 @@ TEST_P(PublishTest, TheResultThatHoldsIsPublished) {
   s.exclude(1, "M1/F2/EX", "disturbed");
   fit(9.0);
   s.restore(1, "M1/F2/EX");  // so that the first of them holds again
-  EXPECT_EQ(publishFromSession(s, {1}, address()).count.results_new, 1U);
-  PlantStore store = PlantStore::open(address());
-  const PlantCampaign c = store.campaign(store.campaigns("mill").at(0).id);
-  ASSERT_EQ(c.results.at(0).parameters.size(), 1U);
-  EXPECT_EQ(c.results[0].parameters[0].value, 1.5);
+  const PublishOutcome outcome = publishFromSession(s, {1}, address());
+  EXPECT_EQ(outcome.count.results_new, 1U);
+  EXPECT_THAT(outcome.warnings, ::testing::IsEmpty());
+  {
+    PlantStore store = PlantStore::open(address());
+    const PlantCampaign c = store.campaign(store.campaigns("mill").at(0).id);
+    ASSERT_EQ(c.results.at(0).parameters.size(), 1U);
+    EXPECT_EQ(c.results[0].parameters[0].value, 1.5);
+  }
+  s.exclude(1, "M1/F1/EX", "disturbed");  // now neither holds: the newest is published, and said to be outdated
+  EXPECT_THAT(
+      publishFromSession(s, {1}, address()).warnings,
+      ::testing::ElementsAre(::testing::AllOf(HasSubstr("Published although it is outdated: the fitted model of "),
+                                              HasSubstr("Changed since: 1 exclusion more."))));
 }
 
 TEST_P(PublishTest, SessionPublishesWhatItKnowsOfTheMachine) {

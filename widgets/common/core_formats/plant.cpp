@@ -33,6 +33,7 @@ std::span<const char* const> spindrift::gui::core_formats::plant() noexcept {
     QT_TRANSLATE_NOOP("core", "No plant store is named; allowed: a file such as plant.sqlite, or postgresql:host=NAME dbname=plant user=NAME."),
     QT_TRANSLATE_NOOP("core", "One campaign cannot be compared; allowed: two or more."),
     QT_TRANSLATE_NOOP("core", "One value since {}: control limits begin with the fifth."),
+    QT_TRANSLATE_NOOP("core", "Published although it is outdated: {} of {}. Changed since: {}. Run it again, and publish again."),
     QT_TRANSLATE_NOOP("core", "Slurm did not take the batch: sbatch said nothing but an error; see above."),
     QT_TRANSLATE_NOOP("core", "Slurm did not take the batch: {} Nothing is lost: start it again, or with --engine local."),
     QT_TRANSLATE_NOOP("core", "Slurm has not answered for {:.0f} min (squeue). Nothing is lost: batch resume {} --engine slurm goes on."),

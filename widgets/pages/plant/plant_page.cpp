@@ -636,11 +636,13 @@ void PlantPage::send(const std::shared_ptr<Publication>& publication, const Plan
                                             .arg(coreSentence(outcome.reason)));
         return;
       }
-      notice_ = {Tone::Good, tr("Published: new %1 and %2; there already %3 and %4.")
-                                 .arg(coreSentence(countOf(outcome.count.campaigns_new, "campaign")),
-                                      coreSentence(countOf(outcome.count.results_new, "result")),
-                                      coreSentence(countOf(outcome.count.campaigns_there, "campaign")),
-                                      coreSentence(countOf(outcome.count.results_there, "result")))};
+      notice_ = {outcome.warnings.empty() ? Tone::Good : Tone::Attention,
+                 tr("Published: new %1 and %2; there already %3 and %4.")
+                     .arg(coreSentence(countOf(outcome.count.campaigns_new, "campaign")),
+                          coreSentence(countOf(outcome.count.results_new, "result")),
+                          coreSentence(countOf(outcome.count.campaigns_there, "campaign")),
+                          coreSentence(countOf(outcome.count.results_there, "result")))};
+      for (const std::string& warning : outcome.warnings) notice_->second += QLatin1Char(' ') + coreSentence(warning);
       refresh();
     };
   };
