@@ -161,6 +161,7 @@ std::string Compensator::load(const ThermalModel& model, double cycle_s, const C
         c_[lags_] = term.gain * (step.a * step.b1 + step.b0);
         rest_[lags_] = term.gain * (1.0 - step.b1);
         direct_[o][place] += term.gain * step.b1;
+        if (term.gain != 0.0) longest_lag_s_ = std::max(longest_lag_s_, term.tau_s);
         ++round_size_[rounds];
       }
     }
@@ -185,6 +186,7 @@ const char* Compensator::outputName(int index) const noexcept {
 
 void Compensator::reset() noexcept {
   started_ = false;
+  since_start_s_ = 0.0;
   fallback_ = false;
   good_for_s_ = 0.0;
   bad_for_s_.fill(0.0);
@@ -198,6 +200,8 @@ CompensatorStatus Compensator::status() const noexcept {
     if (last_good_[i] < train_low_[i] || last_good_[i] > train_high_[i]) status.outside_training = i;
   for (int o = outputs_ - 1; o >= 0; --o)
     if (std::abs(output_[o]) >= limits_.limit) status.limited_output = o;
+  constexpr double settled = 3.0;  // time constants
+  status.settling_s = std::max(0.0, settled * longest_lag_s_ - since_start_s_);
   return status;
 }
 
@@ -330,6 +334,7 @@ CompensatorState Compensator::step(const double* inputs, const double* age_s, do
   if (back && !at_rest)
     for (int i = 0; i < inputs_; ++i)
       if (gap_s[i] > 0.0) catchUp(i, gap_s[i]);
+  since_start_s_ = at_rest ? 0.0 : std::min(since_start_s_ + cycle_s_, 1e12);
   started_ = true;
   const double largest_change = limits_.slew_per_s * cycle_s_;
   std::array<double, maximum_outputs> value;

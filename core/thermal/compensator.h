@@ -55,6 +55,11 @@ struct CompensatorStatus {
   int outside_training = -1;      ///< first input used in the last step that lies outside its range of training, -1 if
                                   ///< none: the model extrapolates
   int limited_output = -1;        ///< first output that stands at its limit, -1 if none: more would be needed
+  /// How long what the machine did before the first good step counts, s: three times the longest time constant, of
+  /// which 5 % is left then. The lags began at rest at the inputs of that step, which is right for a machine that has
+  /// stood or run evenly as long; a controller that was switched on beside a machine that was warming up or cooling
+  /// down is off until then by at most what the machine still had to go. 0: settled.
+  double settling_s = 0.0;
 };
 
 class Compensator {
@@ -114,7 +119,9 @@ class Compensator {
   bool fallback_ = false;
   double good_for_s_ = 0.0;  ///< in fall-back: how long nothing has been refused
   CompensatorLimits limits_;
-  double broken_for_s_ = 0.0;  ///< how long the model's own value has not been finite
+  double longest_lag_s_ = 0.0;  ///< of those that the outputs depend on
+  double since_start_s_ = 0.0;  ///< since the lags began at rest
+  double broken_for_s_ = 0.0;   ///< how long the model's own value has not been finite
   int refused_update_ = -1;
   bool forced_ = false;
   std::array<std::string, maximum_inputs> input_names_;  // written by `load` alone

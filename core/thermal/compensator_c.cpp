@@ -143,7 +143,8 @@ int spindrift_compensator_get_status(const spindrift_compensator* compensator, s
   const spindrift::CompensatorStatus now = compensator->object.status();
   const spindrift_compensator_status all{
       status->struct_size, static_cast<std::int32_t>(now.state), now.refused_input,    now.refused_update,
-      now.forced ? 1 : 0,  now.value_not_finite ? 1 : 0,         now.outside_training, now.limited_output};
+      now.forced ? 1 : 0,  now.value_not_finite ? 1 : 0,         now.outside_training, now.limited_output,
+      now.settling_s};
   std::memcpy(status, &all, std::min(status->struct_size, sizeof all));
   return 0;
 }

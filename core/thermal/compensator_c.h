@@ -71,6 +71,7 @@ typedef struct spindrift_compensator_status {
   int32_t value_not_finite; /* 1: the model's own value was no number in the last step */
   int32_t outside_training; /* first input used in the last step outside its range of training, -1 if none */
   int32_t limited_output;   /* first output that stands at its limit, -1 if none */
+  double settling_s;        /* how long what the machine did before the first good step still counts, 0: settled */
 } spindrift_compensator_status;
 
 /* 0, or -1 if an argument is NULL or the struct has no size. */

@@ -427,6 +427,40 @@ TEST(Compensator, SaysWhatIsExtrapolatedAndWhatStandsAtItsLimit) {
   EXPECT_EQ(c.status().limited_output, -1);
 }
 
+/// A controller that is switched on beside a machine that warms up already: until it has settled it is off by what the
+/// machine still had to go, then by about a twentieth of it.
+TEST(Compensator, SaysHowLongWhatWasBeforeItsStartCounts) {
+  CompensatorLimits limits;
+  limits.slew_per_s = 1e6;
+  Compensator from_the_beginning;
+  Compensator late;
+  ASSERT_EQ(from_the_beginning.load(model(), 1.0, limits), "");
+  ASSERT_EQ(late.load(model(), 1.0, limits), "");
+  double longest_s = 0.0;
+  for (const LagTerm& term : model().outputs[0].terms) longest_s = std::max(longest_s, term.tau_s);
+  EXPECT_DOUBLE_EQ(late.status().settling_s, 3.0 * longest_s) << "nothing came yet";
+  const double cold[2] = {model().inputs[0].train_min, model().inputs[1].train_min};
+  const double warm[2] = {model().inputs[0].train_max, model().inputs[1].train_max};
+  double right = 0.0;
+  double out = 0.0;
+  from_the_beginning.step(cold, nullptr, &right);
+  for (int k = 0; k < 60; ++k) from_the_beginning.step(warm, nullptr, &right);
+  late.step(warm, nullptr, &out);
+  EXPECT_DOUBLE_EQ(late.status().settling_s, 3.0 * longest_s);
+  const double off = std::abs(out - right);
+  ASSERT_GT(off, 0.1);
+  double before_s = late.status().settling_s;
+  while (before_s > 0.0) {
+    from_the_beginning.step(warm, nullptr, &right);
+    late.step(warm, nullptr, &out);
+    ASSERT_LT(late.status().settling_s, before_s);
+    before_s = late.status().settling_s;
+  }
+  EXPECT_LT(std::abs(out - right), 0.08 * off);
+  late.reset();
+  EXPECT_DOUBLE_EQ(late.status().settling_s, 3.0 * longest_s) << "after a reset nothing is known of before";
+}
+
 TEST(Compensator, TheInterfaceForCChecksLengthsSizesAndNames) {
   const testing::TempFolder folder;
   ThermalModel m = model();
@@ -486,6 +520,7 @@ TEST(Compensator, TheInterfaceForCChecksLengthsSizesAndNames) {
   EXPECT_EQ(status.refused_input, -1);
   EXPECT_EQ(status.refused_update, 0);
   EXPECT_EQ(status.forced, 1);
+  EXPECT_GT(status.settling_s, 0.0);
   status.forced = 9;
   status.struct_size = offsetof(spindrift_compensator_status, forced);
   EXPECT_EQ(spindrift_compensator_get_status(c, &status), 0);
