@@ -99,12 +99,18 @@ void Page::runTask(const std::string& task, WorkEnds ends) {
 }
 
 void Page::keepGiven(const TaskGiven& given) {
-  if (std::exchange(given_visit_, session().visit()) != session().visit()) given_.clear();
+  forgetOtherVisits();
   given_[given.task] = std::make_shared<const TaskGiven>(given);
 }
 
+void Page::forgetOtherVisits() {
+  if (std::exchange(given_visit_, session().visit()) == session().visit()) return;
+  given_.clear();
+  reading_.clear();
+}
+
 ShownTask Page::shown(const std::string& task, const QString& title) {
-  if (std::exchange(given_visit_, session().visit()) != session().visit()) given_.clear();
+  forgetOtherVisits();
   ShownTask out;
   out.state = session().state(task);
   const StoredResult* stored = session().latest(task);
@@ -125,14 +131,33 @@ void Page::runAlone(const std::string& task) {
 }
 
 void Page::showAgain(const QString& title, const std::string& task) {
+  const auto origin = std::make_shared<const ResultOrigin>(session().begin(task).origin);
+  // Whatever refreshes the page meanwhile: what is being read is not begun once more.
+  if (const auto found = reading_.find(task); found != reading_.end() && found->second->sameAs(*origin)) return;
+  const auto ended = [this, task, origin] {
+    if (const auto found = reading_.find(task); found != reading_.end() && found->second == origin)
+      reading_.erase(found);
+  };
   try {
-    enqueue(title, JobQueue::Reading,
-            [this, detail = detailOfTask(session(), task, taskInputs())](JobContext& job) -> std::function<void()> {
-              return [this, now = detail(job)] {
-                if (const TaskGiven* given = now()) keepGiven(*given);
-                refresh();
-              };
-            });
+    Job job = readingJob(title, JobQueue::Reading,
+                         [this, ended, detail = detailOfTask(session(), task, taskInputs())](
+                             JobContext& context) -> std::function<void()> {
+                           return [this, ended, now = detail(context)] {
+                             ended();
+                             if (const TaskGiven* given = now()) keepGiven(*given);
+                             refresh();
+                           };
+                         });
+    job.cancelled = [ended, cancelled = std::move(job.cancelled)] {
+      ended();
+      cancelled();
+    };
+    job.failed = [ended, failed = std::move(job.failed)](const QString& sentence) {
+      ended();
+      failed(sentence);
+    };
+    context_.jobs.run(std::move(job));
+    reading_[task] = origin;
   } catch (const InputError& e) {
     showFailure(coreSentence(e.what()));
   }
@@ -143,14 +168,14 @@ void Page::run(const QString& title, Work work) {
 }
 
 void Page::display(const QString& title, Work work) {
-  enqueue(title, JobQueue::Display, std::move(work));
+  context_.jobs.run(readingJob(title, JobQueue::Display, std::move(work)));
 }
 
-void Page::enqueue(const QString& title, JobQueue queue, Work work) {
+Job Page::readingJob(const QString& title, JobQueue queue, Work work) {
   Job job = jobOf(title, std::move(work));
   job.queue = queue;
   job.key = (stepTitle(step_) + QLatin1Char('/') + title).toStdString();
-  context_.jobs.run(std::move(job));
+  return job;
 }
 
 void PageRegistry::add(StepId step, Applies applies, Factory factory, const char* key) {

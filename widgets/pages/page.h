@@ -84,8 +84,6 @@ class Page : public QWidget {
   void run(const QString& title, Work work);
   /// Reads or works out again what is only to be shown, in place of what was to be shown before.
   void display(const QString& title, Work work);
-  /// The same in another queue: what was asked for before under this title is not wanted any more.
-  void enqueue(const QString& title, JobQueue queue, Work work);
   /// In the callout.
   void showFailure(const QString& sentence);
   /// Wires a hover signal to the hint line.
@@ -98,13 +96,18 @@ class Page : public QWidget {
 
  private:
   [[nodiscard]] Job jobOf(const QString& title, Work work);
-  /// Works out again what is shown beside the stored result of a task; the page is refreshed then.
+  /// What is only to be shown: what was asked for before under this title is not wanted any more.
+  [[nodiscard]] Job readingJob(const QString& title, JobQueue queue, Work work);
+  /// Works out again what is shown beside the stored result of a task, unless that is being done; the page is
+  /// refreshed then.
   void showAgain(const QString& title, const std::string& task);
+  void forgetOtherVisits();
   void keepGiven(const TaskGiven& given);
 
   std::int64_t seen_visit_ = -1;
-  std::map<std::string, std::shared_ptr<const TaskGiven>> given_;  ///< the last of each task, of given_visit_
-  std::int64_t given_visit_ = -1;
+  std::map<std::string, std::shared_ptr<const TaskGiven>> given_;       ///< the last of each task, of given_visit_
+  std::map<std::string, std::shared_ptr<const ResultOrigin>> reading_;  ///< by task: what is worked out again now
+  std::int64_t given_visit_ = -1;                                       ///< that given_ and reading_ belong to
   PageContext context_;
   StepId step_;
   WrappedLabel* instruction_;

@@ -12,6 +12,7 @@
 #include <QTimer>
 #include <algorithm>
 #include <atomic>
+#include <set>
 #include <thread>
 
 #include "core/base/text.h"
@@ -354,15 +355,42 @@ TEST_F(CampaignsTest, AFitWithTheOptionsOfAnEarlierVersionIsWorkedOutAgainOnce) 
   window_->closeSession();
   window_->open(folder);
   wait();
-  int begun = 0;
+  // By the number of the job: `started` tells of one again when another that was shown has ended.
+  std::set<int> begun;
   QObject here;
-  QObject::connect(&window_->jobs(), &JobRunner::started, &here,
-                   [&](const QString& title) { begun += title == QLatin1String("Reading the fit") ? 1 : 0; });
+  QObject::connect(&window_->jobs(), &JobRunner::changed, &here, [&] {
+    for (const JobEntry& job : window_->jobs().entries())
+      if (job.title == QLatin1String("Reading the fit")) begun.insert(job.id);
+  });
   window_->workflow().goTo(StepId::Model);
   (void)window_->currentPage();
   QTest::qWait(500);
   wait();
-  EXPECT_EQ(begun, 1);
+  EXPECT_EQ(begun.size(), 1U);
+}
+
+TEST_F(CampaignsTest, WhatIsBeingReadIsNotBegunOnceMoreByARefresh) {
+  openTwo();
+  run(StepId::Model);
+  const QString folder = QString::fromStdString(session().folder().string());
+  window_->workflow().goTo(StepId::Report);
+  wait();
+  window_->closeSession();
+  window_->open(folder);
+  wait();
+  std::set<int> begun;
+  QObject here;
+  QObject::connect(&window_->jobs(), &JobRunner::changed, &here, [&] {
+    for (const JobEntry& job : window_->jobs().entries())
+      if (job.title == QLatin1String("Reading the fit")) begun.insert(job.id);
+  });
+  window_->workflow().goTo(StepId::Model);
+  for (int i = 0; i < 3; ++i) window_->currentPage()->refresh();
+  EXPECT_EQ(begun.size(), 1U);
+  wait();
+  window_->currentPage()->refresh();
+  wait();
+  EXPECT_EQ(begun.size(), 1U) << "and what was read is kept";
 }
 
 TEST_F(CampaignsTest, AFileThatWasChangedWhileTheSessionWasClosedIsSaidAndItsResultsAreOutdated) {
