@@ -187,6 +187,27 @@ void tellEffects(const Solution& solution, DiscrepancyResult& result) {
   result.effect_part = std::move(part);
 }
 
+/// Where what is named is a part of the simulation: by how much that is off.
+void tellErrorsOfParts(const Solution& solution, DiscrepancyResult& result) {
+  if (solution.input.tangents) return;  // a simulator's own parameters are put into it (into_simulation.h)
+  const JointFit& named = solution.judged.named;
+  for (std::size_t t = 0; t < solution.effects.size(); ++t) {
+    const ModelEffect& effect = solution.effects[t];
+    const auto part = std::find_if(solution.analysis.parts.begin(), solution.analysis.parts.end(),
+                                   [&](const SimulationPart& p) { return p.id == named.terms[t].effect->id; });
+    if (part == solution.analysis.parts.end() || effect.gains.size() == 0) continue;
+    Eigen::Index largest = 0;
+    effect.gains.cwiseQuotient(effect.gain_uncertainty.cwiseMax(1e-300)).cwiseAbs().maxCoeff(&largest);
+    const std::optional<PartError> error =
+        partError(solution.problem, *part, named.contribution[t],
+                  effect.gain_uncertainty[largest] / std::max(1e-300, std::abs(effect.gains[largest])));
+    if (!error) continue;
+    result.warnings.push_back(fmt::format("The simulation has {} already: {:.0f} ± {:.0f} % too {} of it.", error->id,
+                                          100.0 * std::abs(error->relative), std::max(1.0, 100.0 * error->uncertainty),
+                                          error->relative > 0.0 ? "much" : "little"));
+  }
+}
+
 /// The most probable candidates, and what each that was rejected is given up for.
 void tellCandidates(const EffectPosterior& posterior, const DiscrepancyOptions& options, DiscrepancyResult& result) {
   const auto rejected = [&](const std::string& id) {
@@ -360,6 +381,7 @@ DiscrepancyResult findDiscrepancy(const DiscrepancyInput& given, const Discrepan
   fitModel(solution);
   result.model = std::make_shared<EffectModel>(analysis.drivers, solution.averaged, nullptr, input.base_table);
   tellEffects(solution, result);
+  tellErrorsOfParts(solution, result);
   tellNoise(problem, analysis.posterior.fit, analysis.remainder, input.observations.rows, result);
   result.noise_model = std::make_shared<const NoiseModel>(problem.noise);
   result.twins = analysis.hypotheses.twins(problem);

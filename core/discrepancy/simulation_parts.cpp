@@ -136,4 +136,19 @@ std::vector<PartError> partErrors(const ResidualProblem& problem, const std::vec
   return out;
 }
 
+std::optional<PartError> partError(const ResidualProblem& problem, const SimulationPart& part,
+                                   const Eigen::VectorXd& missing, double relative_uncertainty) {
+  constexpr double alike = 0.7;  // cosine
+  constexpr double least_left = 0.1;
+  Eigen::VectorXd weight(problem.size());
+  for (Eigen::Index u = 0; u < problem.size(); ++u) weight[u] = 1.0 / problem.ownSigma(u);
+  const Eigen::VectorXd has = problem.centred(part.values).cwiseProduct(weight);
+  const Eigen::VectorXd lacks = problem.centred(missing).cwiseProduct(weight);
+  if (!(has.norm() > 0.0) || std::abs(has.dot(lacks)) < alike * has.norm() * lacks.norm()) return std::nullopt;
+  const double part_missing = lacks.dot(has) / has.squaredNorm();
+  const double needed = 1.0 + part_missing;
+  if (needed < least_left) return std::nullopt;
+  return PartError{part.id, -part_missing / needed, std::abs(part_missing) * relative_uncertainty / (needed * needed)};
+}
+
 }  // namespace spindrift

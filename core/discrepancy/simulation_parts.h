@@ -4,6 +4,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -53,6 +54,12 @@ struct PartError {
   double relative = 0.0;
   double uncertainty = 0.0;
 };
+
+/// By how much a part is off if `missing` (um or urad over the units, a named effect of the same id) is what it lacks;
+/// `relative_uncertainty`: standard uncertainty of the size of `missing` over that size. Nothing: it has another course
+/// or pattern than the part, or would turn it round.
+[[nodiscard]] std::optional<PartError> partError(const ResidualProblem& problem, const SimulationPart& part,
+                                                 const Eigen::VectorXd& missing, double relative_uncertainty);
 
 /// Errors of those parts that account for most of what the nuisances take of `values`. `first`: the nuisance that
 /// stands for the first part.

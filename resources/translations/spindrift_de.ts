@@ -12016,6 +12016,14 @@ endgültig fehlgeschlagen: {}</translation>
         <source>It is empty: nothing has been written into it.</source>
         <translation>Sie ist leer: es wurde nichts hineingeschrieben.</translation>
     </message>
+    <message>
+        <source>Published although it is outdated: {} of {}. Changed since: {}. Run it again, and publish again.</source>
+        <translation>Veröffentlicht, obwohl veraltet: {} von {}. Seitdem geändert: {}. Neu rechnen und noch einmal veröffentlichen.</translation>
+    </message>
+    <message>
+        <source>The simulation has {} already: {:.0f} ± {:.0f} % too {} of it.</source>
+        <translation>Die Simulation hat {} schon: {:.0f} ± {:.0f} % zu {} davon.</translation>
+    </message>
 </context>
 <context>
     <name>files</name>
@@ -17858,8 +17866,8 @@ ihrem Ordner und führen nicht hinaus.
         <translation>Keine Datei wurde geschrieben. Geändert seit der Berechnung der Kompensation: %1.</translation>
     </message>
     <message>
-        <source>on held-out data; on fitted data %1</source>
-        <translation>an Validierungsdaten; an angepassten Daten %1</translation>
+        <source>on data not fitted; on fitted data %1</source>
+        <translation>an nicht angepassten Daten; an angepassten %1</translation>
     </message>
 </context>
 <context>
@@ -26785,8 +26793,12 @@ ihrem Ordner und führen nicht hinaus.
         <translation>unentschieden</translation>
     </message>
     <message>
-        <source>and</source>
-        <translation>und</translation>
+        <source>Displacements within</source>
+        <translation>Verschiebungen bis</translation>
+    </message>
+    <message>
+        <source>rotations within</source>
+        <translation>Drehungen bis</translation>
     </message>
 </context>
 <context>

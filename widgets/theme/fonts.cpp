@@ -37,7 +37,7 @@ TableRange findTable(const QByteArray& font, const char* tag) {
 QString loadFamily() {
   constexpr auto family = "Spdrf";
   bool loaded = false;
-  for (const char* file : {"Inter-Regular.otf", "Inter-Medium.otf", "Inter-SemiBold.otf"}) {
+  for (const char* file : {"Inter-Regular.otf", "Inter-Medium.otf", "Inter-SemiBold.otf", "Inter-Bold.otf"}) {
     QFile input(QString::fromLatin1(folder) + QString::fromLatin1(file));
     if (!input.open(QIODevice::ReadOnly)) continue;
     const QByteArray font = withTabularFigures(input.readAll(), family);

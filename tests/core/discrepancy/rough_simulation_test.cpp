@@ -63,6 +63,42 @@ TEST(RoughSimulation, OnePartThatIsFarOffIsToldAllTheSame) {
   EXPECT_GE(tally.right, 6);
 }
 
+TEST(RoughSimulation, OfAPartThatIsNamedItIsSaidByHowMuchItIsOff) {
+  constexpr int campaigns = 10;
+  int named = 0;
+  int told = 0;
+  int inside = 0;
+  for (int k = 0; k < campaigns; ++k) {
+    StudyOptions study;
+    study.strength = 6.0;
+    study.conditions.one_base_error = 0.3;
+    study.turn = static_cast<std::size_t>(k);
+    const StudyCase made = studyCase(study, 93'001 + static_cast<std::uint64_t>(k));
+    JobContext job;
+    DiscrepancyOptions options;
+    options.suggest = false;
+    const DiscrepancyResult result = findDiscrepancy(study::inputOf(simulateStudy(made, job).campaign), options, job);
+    const std::string& off = made.hidden.front();
+    if (result.effects.size() != 1 || result.effects.front().id != off) continue;
+    ++named;
+    const double error = made.scenario.simulation->size_errors.at(off);
+    for (const std::string& warning : result.warnings) {
+      const std::string begin = "The simulation has " + off + " already: ";
+      if (!warning.starts_with(begin)) continue;
+      ++told;
+      double percent = 0.0;
+      double uncertainty = 0.0;
+      ASSERT_EQ(std::sscanf(warning.c_str() + begin.size(), "%lf ± %lf", &percent, &uncertainty), 2) << warning;
+      EXPECT_THAT(warning, HasSubstr(error > 0.0 ? "too much of it." : "too little of it."));
+      inside += std::abs(percent - 30.0) <= 2.0 * uncertainty ? 1 : 0;
+      EXPECT_NEAR(percent, 30.0, std::max(6.0, 4.0 * uncertainty)) << warning;
+    }
+  }
+  EXPECT_GE(named, 7);
+  EXPECT_GE(told, named - 1);
+  EXPECT_GE(inside, told - 2);
+}
+
 TEST(RoughSimulation, OnePartThatIsFarOffIsNoRoughnessOfAllParts) {
   // Each was taken for a simulation all of whose parts are rough, which follows a fifth of a part as well.
   int right = 0;

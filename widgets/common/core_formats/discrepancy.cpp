@@ -75,6 +75,7 @@ std::span<const char* const> spindrift::gui::core_formats::discrepancy() noexcep
     QT_TRANSLATE_NOOP("core", "The sensor {} never moves; it is left out as dead."),
     QT_TRANSLATE_NOOP("core", "The simulation has {:.0f} ± {:.0f} % too {} of {}: no more than a rough simulation may be off by ({:.0f} %), so it is taken as its error and not as a missing effect."),
     QT_TRANSLATE_NOOP("core", "The simulation has {:.0f} ± {:.0f} % too {} of {}: no more than a rough simulation may be off by, so it is taken as its error and not for {}."),
+    QT_TRANSLATE_NOOP("core", "The simulation has {} already: {:.0f} ± {:.0f} % too {} of it."),
     QT_TRANSLATE_NOOP("core", "The simulator failed while it was fitted: {}"),
     QT_TRANSLATE_NOOP("core", "The spindle shaft and housing grow along Z as the bearings heat them; the heat follows the speed and reaches the structure with one or two first-order time constants."),
     QT_TRANSLATE_NOOP("core", "The spindle support warms unevenly and shifts the nose sideways, the same everywhere in the working space, following the spindle heat with one or two first-order time constants."),

@@ -58,7 +58,7 @@ void CompensatePage::showPlan() {
   after_->setToolTip(onScreen(tr("On data not used for fitting: %1.").arg(unseen)));
   if (plan_->rms_after_unseen_um) {
     after_->set(sizeText(*plan_->rms_after_unseen_um, um),
-                tr("on held-out data; on fitted data %1").arg(sizeText(plan_->rms_after_um, um)),
+                tr("on data not fitted; on fitted data %1").arg(sizeText(plan_->rms_after_um, um)),
                 *plan_->rms_after_unseen_um < *plan_->rms_before_unseen_um ? Tone::Good : Tone::Attention);
   } else {
     after_->set(sizeText(plan_->rms_after_um, um), tr("fitted values; noise included"),

@@ -41,6 +41,10 @@ QString stationName(const ProbedFeature& f, bool holes) {
   return f.c_deg == 0.0 ? fromCore(f.feature) : QStringLiteral("%1 @ %2°").arg(fromCore(f.feature)).arg(f.c_deg);
 }
 
+QString lengthError(double error_um, double standard_uncertainty_um) {
+  return shownNumbers(fromCore(withUncertainty(error_um, standard_uncertainty_um, "um")));
+}
+
 }  // namespace
 
 TouchEvaluationPage::TouchEvaluationPage(PageContext page_context, QWidget* parent)
@@ -224,13 +228,23 @@ void TouchEvaluationPage::showTiles(const CycleEvaluation& cycles) {
   }
   if (!details_.touches->hole_cycles.empty()) {
     const HoleCycleResult& holes = details_.touches->hole_cycles.front();
-    length_->set(QStringLiteral("%1 µm").arg(decimalText(holes.largest_nonlinearity_um, 'f', 2)),
+    const auto largest = std::max_element(holes.linearity.begin(), holes.linearity.end(),
+                                          [](const LinearityDeviation& a, const LinearityDeviation& b) {
+                                            return std::abs(a.largest_um) < std::abs(b.largest_um);
+                                          });
+    length_->set(largest == holes.linearity.end() ? QStringLiteral("–")
+                                                  : lengthError(std::abs(largest->largest_um), largest->sigma_um),
                  tr("deviation of a hole from the straight line, all cycles"));
   } else {
-    double largest = 0;
-    for (const BallDistance& d : details_.touches->ball_cycles.front().distances)
-      largest = std::max(largest, std::abs(d.error_um));
-    length_->set(QStringLiteral("%1 µm").arg(decimalText(largest, 'f', 1)), tr("of a distance between balls"));
+    const auto& distances = details_.touches->ball_cycles.front().distances;
+    const auto largest =
+        std::max_element(distances.begin(), distances.end(), [](const BallDistance& a, const BallDistance& b) {
+          return std::abs(a.error_um) < std::abs(b.error_um);
+        });
+    length_->set(largest == distances.end()
+                     ? QStringLiteral("–")
+                     : lengthError(std::abs(largest->error_um), largest->standard_uncertainty_um),
+                 tr("of a distance between balls"));
   }
   int known = 0;
   int healthy = 0;

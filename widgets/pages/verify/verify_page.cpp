@@ -185,9 +185,9 @@ QWidget* VerifyPage::makeChoices() {
     inner->addWidget(spin);
     return spin;
   };
-  goal_um_ = goal(tr("Goal"), tr("Goal of displacements"), QStringLiteral("um"), 1000);
+  goal_um_ = goal(tr("Displacements within"), tr("Goal of displacements"), QStringLiteral("um"), 1000);
   goal_um_->setMinimum(0.1);
-  goal_urad_ = goal(tr("and"), tr("Goal of rotations"), QStringLiteral("urad"), 10000);
+  goal_urad_ = goal(tr("rotations within"), tr("Goal of rotations"), QStringLiteral("urad"), 10000);
   goal_urad_->setSpecialValueText(tr("none"));
   auto* criterion = group();
   criterion->addWidget(new QLabel(tr("for the")));
