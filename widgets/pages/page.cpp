@@ -139,24 +139,24 @@ void Page::showAgain(const QString& title, const std::string& task) {
       reading_.erase(found);
   };
   try {
-    Job job = readingJob(title, JobQueue::Reading,
-                         [this, ended, detail = detailOfTask(session(), task, taskInputs())](
-                             JobContext& context) -> std::function<void()> {
-                           return [this, ended, now = detail(context)] {
-                             ended();
-                             if (const TaskGiven* given = now()) keepGiven(*given);
-                             refresh();
-                           };
-                         });
-    job.cancelled = [ended, cancelled = std::move(job.cancelled)] {
-      ended();
-      cancelled();
+    Job job;
+    job.title = title;
+    job.queue = JobQueue::Reading;
+    job.key = keyOf(title);
+    job.work = [this, ended,
+                detail = detailOfTask(session(), task, taskInputs())](JobContext& context) -> std::function<void()> {
+      return [this, ended, now = detail(context)] {
+        ended();
+        if (const TaskGiven* given = now()) keepGiven(*given);
+        refresh();
+      };
     };
-    job.failed = [ended, failed = std::move(job.failed)](const QString& sentence) {
+    job.failed = [this, ended](const QString& sentence) {
       ended();
-      failed(sentence);
+      showFailure(sentence);
     };
-    context_.jobs.run(std::move(job));
+    job.cancelled = ended;
+    context_.jobs.run(visitJob(session(), std::move(job)));
     reading_[task] = origin;
   } catch (const InputError& e) {
     showFailure(coreSentence(e.what()));
@@ -168,14 +168,14 @@ void Page::run(const QString& title, Work work) {
 }
 
 void Page::display(const QString& title, Work work) {
-  context_.jobs.run(readingJob(title, JobQueue::Display, std::move(work)));
+  Job job = jobOf(title, std::move(work));
+  job.queue = JobQueue::Display;
+  job.key = keyOf(title);
+  context_.jobs.run(std::move(job));
 }
 
-Job Page::readingJob(const QString& title, JobQueue queue, Work work) {
-  Job job = jobOf(title, std::move(work));
-  job.queue = queue;
-  job.key = (stepTitle(step_) + QLatin1Char('/') + title).toStdString();
-  return job;
+std::string Page::keyOf(const QString& title) const {
+  return (stepTitle(step_) + QLatin1Char('/') + title).toStdString();
 }
 
 void PageRegistry::add(StepId step, Applies applies, Factory factory, const char* key) {

@@ -96,8 +96,8 @@ class Page : public QWidget {
 
  private:
   [[nodiscard]] Job jobOf(const QString& title, Work work);
-  /// What is only to be shown: what was asked for before under this title is not wanted any more.
-  [[nodiscard]] Job readingJob(const QString& title, JobQueue queue, Work work);
+  /// What is only to be shown has a key: what was asked for before under this title is not wanted any more.
+  [[nodiscard]] std::string keyOf(const QString& title) const;
   /// Works out again what is shown beside the stored result of a task, unless that is being done; the page is
   /// refreshed then.
   void showAgain(const QString& title, const std::string& task);
