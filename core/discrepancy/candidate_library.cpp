@@ -154,7 +154,7 @@ CandidateLibrary::Entry CandidateLibrary::entryOf(const Effect& effect) const {
       case Dynamics::AsymmetricLag:
         for (std::size_t a = 0; a < lags.size(); a += 2) {
           for (std::size_t b = 0; b < lags.size(); b += 2) {
-            if (a == b) continue;
+            if (a == b || !EffectSearch::possibleLags(lags[a], lags[b])) continue;
             std::vector<Index> which;
             for (const EffectInput& input : variant.inputs) which.push_back(responseOf(input, lags[a], lags[b]));
             addWay(variant, {lags[a], lags[b]}, which);

@@ -163,6 +163,7 @@ bool EffectSearch::admissible(const ModelTerm& term, const Eigen::VectorXd& gain
     }
   }
   const Dynamics first = inputs[0].dynamics;
+  if (first == Dynamics::AsymmetricLag && !possibleLags(term.parameters[0], term.parameters[1])) return false;
   if (first == Dynamics::Pulse && inputs.size() == 1 && problem_->epoch_time_s.size() >= 6) {
     const Eigen::VectorXd q = inputResponses(*drivers_, term.variant, term.parameters, problem_->epoch_time_s).col(0);
     const Eigen::ArrayXd moved = (q.array() - median(std::vector<double>(q.begin(), q.end()))).square();

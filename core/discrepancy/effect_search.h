@@ -78,6 +78,13 @@ class EffectSearch {
   /// so of one that is believed up to the second.
   static constexpr double most_in_one_state = 0.8;
   static constexpr double believed_in_one_state = 0.75;
+  /// An asymmetric lag (s): coolant takes heat better while it flows than the air does afterwards, so what it cools
+  /// comes back up to this many times slower; hardly ever quicker. Outside, a switch imitates any slow course.
+  static constexpr double slowest_after = 16.0;
+  static constexpr double quickest_after = 0.5;
+  [[nodiscard]] static bool possibleLags(double on_s, double off_s) noexcept {
+    return off_s <= slowest_after * on_s && off_s >= quickest_after * on_s;
+  }
   /// Signs, origins, ratios and what was warm at the start are within what EFFECTS.md and physics allow.
   [[nodiscard]] bool admissible(const ModelTerm& term, const Eigen::VectorXd& gains,
                                 double in_one_state = most_in_one_state) const;

@@ -84,6 +84,26 @@ TEST(CommonNoise, NoEffectHidesInShiftsBesideOthers) {
   }
 }
 
+TEST(CommonNoise, ASwitchOfTheCoolantFollowsNoSlowCourse) {
+  // With 443 s while it flows and 13,500 s afterwards it was named for an instrument that warms up; with 2,760 s and
+  // 427 s where nothing is hidden.
+  const auto names = [](StudyKind kind, std::uint64_t of_kind, std::uint64_t number) {
+    StudyOptions study;
+    study.kind = kind;
+    study.strength = 5.0;
+    study.conditions = StudyConditions::together();
+    study.turn = 4242 * 7 + of_kind * 11 + number;
+    const StudyCase made = studyCase(study, 4'242'000'000ULL + of_kind * 10'000ULL + number);
+    const DiscrepancyResult result = answerTo(made);
+    return std::count_if(result.effects.begin(), result.effects.end(), [&](const FoundEffect& e) {
+      return e.id.starts_with("coolant.") &&
+             std::find(made.hidden.begin(), made.hidden.end(), e.id) == made.hidden.end();
+    });
+  };
+  EXPECT_EQ(names(StudyKind::Three, 18, 17), 0);
+  EXPECT_EQ(names(StudyKind::Nothing, 20, 20), 0);
+}
+
 TEST(CommonNoise, ASecondLookBeginsWithTheClockThatWasStated) {
   // The room's drift was taken for shifts of states, and a clock that is right was moved by six minutes to fit what was
   // found in its place; beside that clock the drift was not found either.
