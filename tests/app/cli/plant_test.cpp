@@ -16,9 +16,9 @@
 #include "core/base/random.h"
 #include "core/plant/plant_store.h"
 #include "core/session/session.h"
+#include "core/tasks/campaign_state.h"
 #include "tests/app/cli/child_process.h"
 #include "tests/core/plant/temporary_postgres.h"
-#include "tests/support/session_steps.h"
 #include "tests/support/source_folder.h"
 #include "tests/support/temp_folder.h"
 
@@ -34,10 +34,11 @@ void makeSession(const std::filesystem::path& folder, const std::string& start_u
   const std::int64_t id = s.newCampaign("warm-up", start_utc,
                                         R"({"format":"spindrift-machine","version":1,"name":"mill",
                                             "chain":"V [w-X'-Y'-b-Z-t]","axes":[{"name":"X","travel_mm":[0,300]}]})");
-  addResult(s, id, "fit", {},
-            {{"status", "converged"},
-             {"state", "M1"},
-             {"parameters", {{"EX_um", {{"value", value}, {"standard_uncertainty", 0.2}}}}}});
+  const TaskLedger nothing_runs;
+  (void)s.keepResult(CampaignState::read(s, id).tasks(s, nothing_runs).origin("fit"),
+                     {{"status", "converged"},
+                      {"state", "M1"},
+                      {"parameters", {{"EX_um", {{"value", value}, {"standard_uncertainty", 0.2}}}}}});
 }
 
 TEST(PlantCommand, PublishesListsTrendsAndExports) {

@@ -76,7 +76,7 @@ TEST_P(PublishTest, TheResultThatHoldsIsPublished) {
   EXPECT_THAT(
       publishFromSession(s, {1}, address()).warnings,
       ::testing::ElementsAre(::testing::AllOf(HasSubstr("Published although it is outdated: the fitted model of "),
-                                              HasSubstr("Changed since: 1 exclusion more."))));
+                                              HasSubstr("Changed since: 1 exclusion more, 1 taken back."))));
 }
 
 TEST_P(PublishTest, SessionPublishesWhatItKnowsOfTheMachine) {
