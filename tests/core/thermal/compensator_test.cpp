@@ -409,7 +409,7 @@ TEST(Compensator, SaysWhatIsExtrapolatedAndWhatStandsAtItsLimit) {
   Compensator c;
   ASSERT_EQ(c.load(model(), 1.0, limits), "");
   EXPECT_EQ(c.status().outside_training, -1) << "nothing came yet";
-  const ThermalInput& second = model().inputs[1];
+  const ThermalInput second = model().inputs[1];
   double inputs[2] = {model().inputs[0].train_min, second.train_max};
   double out = 0.0;
   c.step(inputs, nullptr, &out);
@@ -437,7 +437,8 @@ TEST(Compensator, SaysHowLongWhatWasBeforeItsStartCounts) {
   ASSERT_EQ(from_the_beginning.load(model(), 1.0, limits), "");
   ASSERT_EQ(late.load(model(), 1.0, limits), "");
   double longest_s = 0.0;
-  for (const LagTerm& term : model().outputs[0].terms) longest_s = std::max(longest_s, term.tau_s);
+  const ThermalModel of = model();
+  for (const LagTerm& term : of.outputs[0].terms) longest_s = std::max(longest_s, term.tau_s);
   EXPECT_DOUBLE_EQ(late.status().settling_s, 3.0 * longest_s) << "nothing came yet";
   const double cold[2] = {model().inputs[0].train_min, model().inputs[1].train_min};
   const double warm[2] = {model().inputs[0].train_max, model().inputs[1].train_max};
