@@ -74,6 +74,13 @@ class CampaignsTest : public StoryTest {
     for (const JobEntry& job : window_->jobs().entries()) titles << job.title;
     return titles;
   }
+  /// Numbers of the jobs that read the fit, as long as `here` lives.
+  void collectReadings(QObject* here, std::set<int>& begun) {
+    QObject::connect(&window_->jobs(), &JobRunner::changed, here, [this, &begun] {
+      for (const JobEntry& job : window_->jobs().entries())
+        if (job.title == QLatin1String("Reading the fit")) begun.insert(job.id);
+    });
+  }
   [[nodiscard]] bool said(const QString& text) {
     const auto& messages = window_->jobBar()->log().messages();
     return std::any_of(messages.begin(), messages.end(), [&](const Message& m) { return m.text.contains(text); });
@@ -358,10 +365,7 @@ TEST_F(CampaignsTest, AFitWithTheOptionsOfAnEarlierVersionIsWorkedOutAgainOnce) 
   // By the number of the job: `started` tells of one again when another that was shown has ended.
   std::set<int> begun;
   QObject here;
-  QObject::connect(&window_->jobs(), &JobRunner::changed, &here, [&] {
-    for (const JobEntry& job : window_->jobs().entries())
-      if (job.title == QLatin1String("Reading the fit")) begun.insert(job.id);
-  });
+  collectReadings(&here, begun);
   window_->workflow().goTo(StepId::Model);
   (void)window_->currentPage();
   QTest::qWait(500);
@@ -380,10 +384,7 @@ TEST_F(CampaignsTest, WhatIsBeingReadIsNotBegunOnceMoreByARefresh) {
   wait();
   std::set<int> begun;
   QObject here;
-  QObject::connect(&window_->jobs(), &JobRunner::changed, &here, [&] {
-    for (const JobEntry& job : window_->jobs().entries())
-      if (job.title == QLatin1String("Reading the fit")) begun.insert(job.id);
-  });
+  collectReadings(&here, begun);
   window_->workflow().goTo(StepId::Model);
   for (int i = 0; i < 3; ++i) window_->currentPage()->refresh();
   EXPECT_EQ(begun.size(), 1U);
