@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/discrepancy/catalogue.h"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
+#include <memory>
 
 #include "core/base/json_reader.h"
 #include "core/base/random.h"
@@ -34,6 +36,33 @@ ShapeColumn constantShape(Component component, double sign) {
 
 void addLagVariants(Effect& effect, const std::vector<std::string>& drivers) {
   for (const std::string& driver : drivers) effect.variants.push_back({{{driver, Dynamics::Lag}}, false});
+}
+
+std::vector<Effect> formsApart(std::vector<Effect> effects) {
+  std::vector<Effect> out;
+  out.reserve(effects.size());
+  for (Effect& effect : effects) {
+    if (effect.forms.empty()) {
+      out.push_back(std::move(effect));
+      continue;
+    }
+    const auto whole = std::make_shared<const Effect>(std::move(effect));
+    for (std::size_t f = 0; f < whole->forms.size(); ++f) {
+      Effect form = *whole;
+      form.shape = {{whole->shape.front().gain_unit, [whole, f](const DeviationQuery& q, Component c) {
+                       double sum = 0.0;
+                       for (std::size_t k = 0; k < whole->shape.size(); ++k)
+                         if (whole->forms[f][k] != 0.0) sum += whole->forms[f][k] * whole->shape[k].value(q, c);
+                       return sum;
+                     }}};
+      form.choices = static_cast<int>(whole->forms.size());
+      form.forms.clear();
+      form.of_forms = whole;
+      form.form = f;
+      out.push_back(std::move(form));
+    }
+  }
+  return out;
 }
 
 namespace {
@@ -110,9 +139,10 @@ KnownEffects makeKnownEffects() {
     q.approach = {random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0)};
     q.point = random.index(4) == 0 ? "<point>" : "P2";
   }
+  const std::vector<Effect> effects = formsApart(out.effects);
   for (const bool rotations : {false, true}) {
     std::vector<Eigen::MatrixXd> shapes;
-    for (const Effect& effect : out.effects) {
+    for (const Effect& effect : effects) {
       Eigen::MatrixXd shape = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(6 * places.size()),
                                                     static_cast<Eigen::Index>(effect.shape.size()));
       for (std::size_t p = 0; p < places.size(); ++p) {
@@ -125,10 +155,12 @@ KnownEffects makeKnownEffects() {
       }
       shapes.push_back(std::move(shape));
     }
-    const EffectRelations relations = effectRelations(out.effects, shapes, true);
-    for (std::size_t a = 0; a < out.effects.size(); ++a) {
-      for (const std::size_t b : relations.holds[a])
-        out.holds[rotations][out.effects[a].id].push_back(out.effects[b].id);
+    const EffectRelations relations = effectRelations(effects, shapes, true);
+    for (std::size_t a = 0; a < effects.size(); ++a) {
+      for (const std::size_t b : relations.holds[a]) {
+        std::vector<std::string>& held = out.holds[rotations][effects[a].id];
+        if (std::find(held.begin(), held.end(), effects[b].id) == held.end()) held.push_back(effects[b].id);
+      }
     }
   }
   for (Effect& effect : out.effects) effect.contains = out.holds[1][effect.id];

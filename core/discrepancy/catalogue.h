@@ -44,6 +44,10 @@ using EffectFamily = void (*)(const CatalogueContext& context, std::vector<Effec
 /// fixture.slip is "<point>". What each holds is of observations that measure rotations as well.
 [[nodiscard]] const std::vector<Effect>& everyEffect();
 
+/// For an effect that has forms one for each of them in its place, under its id, with one
+/// shape column. The data choose among them.
+[[nodiscard]] std::vector<Effect> formsApart(std::vector<Effect> effects);
+
 // Helpers for the families.
 inline constexpr const char* axis_letters[3] = {"x", "y", "z"};
 inline constexpr const char* axis_names[3] = {"X", "Y", "Z"};

@@ -70,7 +70,7 @@ std::vector<Effect> catalogueOf(const DiscrepancyInput& input, DriverTable& driv
                                 std::vector<std::string>& warnings) {
   std::vector<Effect> out;
   const SimulatorHypotheses hypotheses(input.tangents.get(), input.observations);
-  if (!input.own || input.own->builtIn()) out = effectCatalogue(catalogueContext(input, drivers, problem));
+  if (!input.own || input.own->builtIn()) out = formsApart(effectCatalogue(catalogueContext(input, drivers, problem)));
   if (!input.own) {
     hypotheses.append(out);
     return out;

@@ -67,6 +67,41 @@ CatalogueContext catalogueContext(const DiscrepancyInput& input, const DriverTab
   return context;
 }
 
+namespace {
+
+/// What was found as one form of an effect, in the columns of that effect: as many as the form has.
+ModelEffect withFormsJoined(ModelEffect e) {
+  if (e.effect.of_forms == nullptr) return e;
+  const std::shared_ptr<const Effect> whole = e.effect.of_forms;
+  const std::vector<double>& form = whole->forms[e.effect.form];
+  std::size_t used = form.size();
+  while (used > 1 && form[used - 1] == 0.0) --used;
+  const auto k = static_cast<Index>(used);
+  const Index inputs = e.gains.size();
+  const Index others = e.covariance.rows() - inputs;
+  Eigen::MatrixXd apart = Eigen::MatrixXd::Zero(inputs * k + others, inputs + others);
+  for (Index i = 0; i < inputs; ++i)
+    for (Index c = 0; c < k; ++c) apart(i * k + c, i) = form[static_cast<std::size_t>(c)];
+  apart.bottomRightCorner(others, others).setIdentity();
+  const Eigen::MatrixXd of_gains = apart.topLeftCorner(inputs * k, inputs);
+  Eigen::VectorXd sigma(inputs * k);
+  for (Index i = 0; i < inputs; ++i) {
+    for (Index c = 0; c < k; ++c) {
+      const double part = std::abs(of_gains(i * k + c, i));
+      sigma[i * k + c] = part > 0.0 ? part * e.gain_uncertainty[i] : 0.0;
+    }
+  }
+  e.gains = of_gains * e.gains;
+  e.gain_uncertainty = sigma;
+  e.covariance = apart * e.covariance * apart.transpose();
+  e.effect = *whole;
+  e.effect.shape.resize(used);
+  e.effect.forms.clear();
+  return e;
+}
+
+}  // namespace
+
 std::vector<ModelEffect> modelEffects(const EffectSearch& search, const ResidualProblem& problem, const JointFit& fit,
                                       const std::string& source, double chi2_scale,
                                       const std::vector<Eigen::VectorXd>& prior_sigma) {
@@ -168,7 +203,7 @@ std::vector<ModelEffect> modelEffects(const EffectSearch& search, const Residual
     }
     e.source = source;
     at += parts[t].cols();
-    out.push_back(std::move(e));
+    out.push_back(withFormsJoined(std::move(e)));
   }
   return out;
 }

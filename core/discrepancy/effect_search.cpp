@@ -78,17 +78,17 @@ Eigen::VectorXd EffectSearch::gridResponse(const EffectInput& input, double a, d
 }
 
 void EffectSearch::prepare(const Effect& effect) const {
-  if (shapes_.contains(effect.id)) return;
+  if (shapes_.contains({effect.id, effect.form})) return;
   Eigen::MatrixXd s = problem_->shapeAtUnits(effect);
   // A periodic error at points a whole number of pitches apart is nothing but rounding.
   for (Index k = 0; k < s.cols(); ++k) {
     if (s.col(k).cwiseAbs().maxCoeff() < 1e-9) s.col(k).setZero();
   }
-  shapes_.emplace(effect.id, std::move(s));
+  shapes_.emplace(std::pair(effect.id, effect.form), std::move(s));
 }
 
 const Eigen::MatrixXd& EffectSearch::shape(const Effect& effect) const {
-  const auto found = shapes_.find(effect.id);
+  const auto found = shapes_.find({effect.id, effect.form});
   SPINDRIFT_ASSERT(found != shapes_.end(), "an effect that was not prepared");
   return found->second;
 }

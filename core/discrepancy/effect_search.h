@@ -117,7 +117,7 @@ class EffectSearch {
   std::vector<double> onsets_;
   mutable std::mutex mutex_;
   mutable std::map<std::tuple<std::string, int, double, double>, Eigen::VectorXd> responses_;
-  mutable std::map<std::string, Eigen::MatrixXd> shapes_;
+  mutable std::map<std::pair<std::string, std::size_t>, Eigen::MatrixXd> shapes_;  ///< by id and form
 };
 
 }  // namespace spindrift

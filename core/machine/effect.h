@@ -9,6 +9,7 @@
 
 #include <array>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -72,6 +73,12 @@ struct Effect {
   /// free, as all are where nothing is observed that one of these columns moves.
   std::vector<double> largest_ratio;
   std::vector<std::size_t> ratio_to{0};
+  /// Combinations of the shape columns that it can be, with one gain each (that of the first column); empty: every
+  /// column has a gain of its own.
+  std::vector<std::vector<double>> forms;
+  /// Of one form of another (formsApart): that one, and which form of it.
+  std::shared_ptr<const Effect> of_forms;
+  std::size_t form = 0;
   std::optional<std::array<double, 2>> tau_s;  ///< bounds of its lags; empty: as the observations allow
   double least_lag_s = 0.0;                    ///< what takes up heat needs so long; 0: it may follow at once
   bool own = false;                            ///< comes from a file of the user's

@@ -1641,10 +1641,6 @@
         <translation>Die Kugel des Tastereinsatzes {} ({:g} mm) passt nicht in ein Loch von {:g} mm.</translation>
     </message>
     <message>
-        <source>The ball screw is warmer where the nut travels, so its growth rises faster than in proportion to the distance from the fixed bearing.</source>
-        <translation>Der Kugelgewindetrieb ist dort wärmer, wo die Mutter fährt; seine Ausdehnung steigt daher schneller als proportional zum Abstand vom Festlager.</translation>
-    </message>
-    <message>
         <source>The bar has no holes; allowed: one or more, three to separate its errors.</source>
         <translation>Die Leiste hat keine Löcher; zulässig: eines oder mehr, drei zum Trennen ihrer Abweichungen.</translation>
     </message>
@@ -12023,6 +12019,10 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>The simulation has {} already: {:.0f} ± {:.0f} % too {} of it.</source>
         <translation>Die Simulation hat {} schon: {:.0f} ± {:.0f} % zu {} davon.</translation>
+    </message>
+    <message>
+        <source>The ball screw is warmer where the nut travels, so its growth rises faster than in proportion to the distance from the fixed bearing. Where the simulation has the mean temperature of the screw, what is left vanishes at both ends of the travel.</source>
+        <translation>Der Kugelgewindetrieb ist dort wärmer, wo die Mutter fährt; seine Ausdehnung steigt daher schneller als proportional zum Abstand vom Festlager. Wo die Simulation seine mittlere Temperatur kennt, verschwindet an beiden Enden des Verfahrwegs, was übrig bleibt.</translation>
     </message>
 </context>
 <context>
@@ -23363,6 +23363,10 @@ ihrem Ordner und führen nicht hinaus.
     <message>
         <source>Published: new %1 and %2; there already %3 and %4.</source>
         <translation>Veröffentlicht: neu %1 und %2; schon vorhanden %3 und %4.</translation>
+    </message>
+    <message>
+        <source>In force again, in the place of later ones: %1.</source>
+        <translation>Wieder gültig anstelle späterer: %1.</translation>
     </message>
 </context>
 <context>

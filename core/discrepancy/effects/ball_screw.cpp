@@ -37,7 +37,9 @@ void ball_screw(const CatalogueContext& context, std::vector<Effect>& out) {
               ? "Feed motion and the room heat the ball screw; it grows away from its fixed bearing and takes the nut "
                 "with it."
               : "The ball screw is warmer where the nut travels, so its growth rises faster than in proportion to the "
-                "distance from the fixed bearing.";
+                "distance from the fixed bearing. Where the simulation has the mean temperature of the screw, what is "
+                "left "
+                "vanishes at both ends of the travel.";
       const auto component = static_cast<Component>(axis);
       effect.shape = {{uniform ? "um_per_m" : "um_per_m2",
                        [component, axis, origin, uniform](const DeviationQuery& q, Component c) {
@@ -45,6 +47,17 @@ void ball_screw(const CatalogueContext& context, std::vector<Effect>& out) {
                          const double p = (q.position_mm[axis] - origin) * 1e-3;
                          return uniform ? p : p * p;
                        }}};
+      // A simulation that has the screw at its mean temperature has its far end where it is: what is left vanishes at
+      // both ends.
+      if (!uniform && known) {
+        const double far_mm = std::abs(linear->travel_mm[1] - origin) > std::abs(linear->travel_mm[0] - origin)
+                                  ? linear->travel_mm[1]
+                                  : linear->travel_mm[0];
+        effect.shape.push_back({"um_per_m", [component, axis, origin](const DeviationQuery& q, Component c) {
+                                  return c == component ? (q.position_mm[axis] - origin) * 1e-3 : 0.0;
+                                }});
+        effect.forms = {{1.0, 0.0}, {1.0, -(far_mm - origin) * 1e-3}};
+      }
       // About another origin the square has a slope as well, and then holds the uniform screw.
       if (!uniform && !known) {
         effect.contains.push_back("ball_screw.expansion." + letter);

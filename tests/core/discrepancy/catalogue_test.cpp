@@ -122,8 +122,24 @@ TEST(Catalogue, AScrewWhoseBearingIsNotKnownHoldsTheUniformOneInTheOtherOne) {
                          [](const Effect& e) { return e.id == "ball_screw.nonuniform.x"; });
   };
   const Effect known = screw(R"(,"fixed_bearing_mm":0)");
-  EXPECT_EQ(known.shape.size(), 1U) << known.formula;
+  // One gain: of the square, or of what vanishes at both ends. Neither is the uniform screw.
+  ASSERT_EQ(known.forms.size(), 2U) << known.formula;
   EXPECT_TRUE(known.contains.empty());
+  const std::vector<Effect> apart = formsApart({known});
+  ASSERT_EQ(apart.size(), 2U);
+  DeviationQuery far;
+  far.position_mm.x() = 500.0;
+  DeviationQuery middle;
+  middle.position_mm.x() = 250.0;
+  for (const Effect& form : apart) {
+    EXPECT_EQ(form.id, "ball_screw.nonuniform.x");
+    ASSERT_EQ(form.shape.size(), 1U);
+    EXPECT_EQ(form.choices, 2);
+  }
+  EXPECT_NEAR(apart[0].shape[0].value(far, Component::EX), 0.25, 1e-12);
+  EXPECT_NEAR(apart[1].shape[0].value(far, Component::EX), 0.0, 1e-12);
+  EXPECT_NEAR(apart[1].shape[0].value(middle, Component::EX), -0.0625, 1e-12);
+  EXPECT_EQ(apart[1].shape[0].value(middle, Component::EY), 0.0);
   const Effect unknown = screw("");
   EXPECT_EQ(unknown.shape.size(), 3U);
   EXPECT_EQ(unknown.contains, std::vector<std::string>{"ball_screw.expansion.x"});

@@ -53,7 +53,7 @@ std::span<const char* const> spindrift::gui::core_formats::discrepancy() noexcep
     QT_TRANSLATE_NOOP("core", "Spindle heat warms one side of the head more than the other; the head tilts about a pivot and carries the tool point with it, sideways and in height."),
     QT_TRANSLATE_NOOP("core", "The angle between X and Y changes with the temperature of the guideways: X drifts in proportion to Y."),
     QT_TRANSLATE_NOOP("core", "The artefact warms with the table or the room and grows away from its reference feature."),
-    QT_TRANSLATE_NOOP("core", "The ball screw is warmer where the nut travels, so its growth rises faster than in proportion to the distance from the fixed bearing."),
+    QT_TRANSLATE_NOOP("core", "The ball screw is warmer where the nut travels, so its growth rises faster than in proportion to the distance from the fixed bearing. Where the simulation has the mean temperature of the screw, what is left vanishes at both ends of the travel."),
     QT_TRANSLATE_NOOP("core", "The beam warms unevenly over its height and sags between its ends; the head that travels on it follows the parabola and turns with its slope."),
     QT_TRANSLATE_NOOP("core", "The clock of log and simulation is {:.0f} s {} that of the observations, as far as the data show it (± {:.0f} s), so they are compared with both at that time."),
     QT_TRANSLATE_NOOP("core", "The clock of the log is {:.0f} s {} that of the observations, as far as the data show it (± {:.0f} s)."),
