@@ -257,4 +257,22 @@ OracleFit fitKnowingNames(const VirtualCampaign& campaign, const std::vector<std
   return out;
 }
 
+std::vector<std::pair<std::string, double>> gainsOfMissed(const DiscrepancyInput& input,
+                                                          const std::vector<std::string>& hidden,
+                                                          const Answer& answer) {
+  const auto listed = [&](const std::string& id) {
+    return std::any_of(answer.effects.begin(), answer.effects.end(),
+                       [&](const Answer::Listed& e) { return sameEffect(e.id, id); });
+  };
+  DiscrepancyOptions options;
+  options.suggest = false;
+  options.max_effects = 0;
+  options.accept = hidden;
+  JobContext job;
+  std::vector<std::pair<std::string, double>> out;
+  for (const FoundEffect& e : findDiscrepancy(input, options, job).effects)
+    if (!listed(e.id)) out.emplace_back(e.id, e.delta_bic);
+  return out;
+}
+
 }  // namespace spindrift::study

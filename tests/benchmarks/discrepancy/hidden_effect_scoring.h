@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/discrepancy/discrepancy.h"
@@ -68,5 +69,11 @@ struct OracleFit {
   double strength = 0.0;     ///< rms of the hidden signal over the held-out rows that it moves, in sigma
 };
 [[nodiscard]] OracleFit fitKnowingNames(const VirtualCampaign& campaign, const std::vector<std::string>& hidden);
+
+/// Gain in BIC of each hidden effect that `answer` lacks, beside the others, where all that are hidden are put in by
+/// hand: below about 10 no search can name it from these data.
+[[nodiscard]] std::vector<std::pair<std::string, double>> gainsOfMissed(const DiscrepancyInput& input,
+                                                                        const std::vector<std::string>& hidden,
+                                                                        const Answer& answer);
 
 }  // namespace spindrift::study

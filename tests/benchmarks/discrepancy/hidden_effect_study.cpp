@@ -2,7 +2,8 @@
 // Study of the search for hidden effects on virtual campaigns, blind to what they hide.
 //
 //   hidden_effect_study [--campaigns N] [--seed S] [--seeds K] [--short] [--plain] [--kind K] [--cell PART]
-//                       [--dump DIR] [--oracle] [--list] [--require] [--suggestion] [--item I] [--gather FILE]
+//                       [--dump DIR] [--oracle] [--limit] [--list] [--require] [--suggestion] [--item I] [--gather
+//                       FILE]
 //
 // N campaigns (default 400), for each of K seeds from S on (default 1; all rates pooled), are shared among the cases of
 // study_cells.cpp: clean data, each condition of a workshop alone, all together, with one, two, three effects hidden,
@@ -13,8 +14,9 @@
 // --plain also runs forward stepwise BIC and LASSO; --require ends with 1 where the rates are not what the search is
 // known to reach; --oracle also fits, at strength 4 and more, the effects that are hidden by their names, to the
 // observations and to the same without noise: what search, noise and the form of the model cost on held-out states.
-// --list prints every campaign that was not named rightly. --dump writes every campaign as a folder, with its truth
-// beside it, and runs no search. --suggestion studies what to measure next instead (suggestion_study.h).
+// --limit puts into the fit by hand what was missed, and counts how much of it these data show at all. --list prints
+// every campaign that was not named rightly. --dump writes every campaign as a folder, with its truth beside it, and
+// runs no search. --suggestion studies what to measure next instead (suggestion_study.h).
 //
 // As a batch ("work":"command", "seeds":[0,N-1], "run":["hidden_effect_study","--campaigns","400","--item","{seed}"]):
 // --item runs the I-th campaign of all, from 0 on, and prints what came out of it as JSON; --gather reads what `batch
@@ -99,6 +101,7 @@ std::string described(const Answer& answer) {
 struct Wanted {
   bool plain = false;
   bool oracle = false;
+  bool limit = false;
   std::filesystem::path dump;  ///< folder for the campaigns; empty: none is written
 };
 
@@ -214,6 +217,13 @@ nlohmann::json runOne(const Assignment& which, const Wanted& wanted, JobContext&
       record["no_oracle"] = unfit.what();  // nothing in the log drives it, say: no fit to compare with
     }
   }
+  if (wanted.limit && signal && judged(answer).outcome == Outcome::Abstained) {
+    try {
+      record["missed"] = gainsOfMissed(input, made.hidden, answer);
+    } catch (const InputError& unfit) {
+      record["no_limit"] = unfit.what();
+    }
+  }
   if (wanted.plain) {
     const Answer stepwise = forwardStepwiseBic(input);
     const Answer lasso = lassoBic(input);
@@ -283,11 +293,19 @@ void count(const nlohmann::json& record, Outcomes& all) {
                                    [&](const std::string& one) { return sameEffect(one, listed.id); });
     all.confidences.emplace_back(listed.confidence, right);
   }
+  std::string limit;
+  if (record.contains("missed")) {
+    for (const auto& [id, gain] : record.at("missed").get<std::vector<std::pair<std::string, double>>>()) {
+      limit += fmt::format("; put in by hand {} gains {:.0f} in BIC", id, gain);
+      all.gains_of_missed[place].push_back(gain);
+    }
+  }
   if (outcome != Outcome::Named) {
     all.misses.push_back(fmt::format(
-        "seed {:5} {:20} hidden {:42} -> {} [explained {:.3f}, {}]", seed, cell.name, joinedList(hidden),
+        "seed {:5} {:20} hidden {:42} -> {} [explained {:.3f}, {}{}]", seed, cell.name, joinedList(hidden),
         described(answer), numberOf(record.at("explained_fraction")),
-        record.at("leftover").get<std::string>().empty() ? "nothing left" : record.at("leftover").get<std::string>()));
+        record.at("leftover").get<std::string>().empty() ? "nothing left" : record.at("leftover").get<std::string>(),
+        limit));
   }
   for (const auto& [key, tallies] : {std::pair{"stepwise", &all.stepwise}, std::pair{"lasso", &all.lasso}}) {
     if (!record.contains(key)) continue;
@@ -345,6 +363,8 @@ int run(int argc, char** argv) {
       wanted.plain = true;
     } else if (std::strcmp(argv[i], "--oracle") == 0) {
       wanted.oracle = true;
+    } else if (std::strcmp(argv[i], "--limit") == 0) {
+      wanted.limit = true;
     } else if (std::strcmp(argv[i], "--list") == 0) {
       list = true;
     } else if (std::strcmp(argv[i], "--require") == 0) {
@@ -365,7 +385,8 @@ int run(int argc, char** argv) {
       wanted.dump = value();
     } else {
       fmt::print(
-          "usage: {} [--campaigns N] [--seed S] [--seeds K] [--short] [--plain] [--oracle] [--list] [--require] "
+          "usage: {} [--campaigns N] [--seed S] [--seeds K] [--short] [--plain] [--oracle] [--limit] [--list] "
+          "[--require] "
           "[--kind one|two|three|nothing|outside|confounded] [--cell PART] [--only CAMPAIGN,...] [--dump DIR] "
           "[--suggestion] [--item I] [--gather FILE]\n",
           argv[0]);

@@ -63,6 +63,19 @@ void printOracle(const std::vector<OracleFit>& fits) {
              100.0 * quantile(cost, 0.9));
 }
 
+void printLimit(const Outcomes& all) {
+  for (std::size_t c = 0; c < cells().size(); ++c) {
+    const std::vector<double>& gains = all.gains_of_missed[c];
+    if (gains.empty()) continue;
+    constexpr double very_strong = 10.0;  // Kass and Raftery 1995
+    const auto below = std::count_if(gains.begin(), gains.end(), [](double g) { return g < very_strong; });
+    fmt::print(
+        "{:22} {} effects missed without a wrong name; put in by hand beside the others that are hidden, {} of "
+        "them gain less than {:.0f} in BIC: these data do not show them\n",
+        cells()[c].name, gains.size(), below, very_strong);
+  }
+}
+
 void printExplained(const Outcomes& all) {
   fmt::print("\nnoise-free hidden signal explained on held-out states\n");
   for (std::size_t c = 0; c < cells().size(); ++c) {
@@ -264,6 +277,7 @@ void printReport(const Outcomes& all, const ReportOptions& options) {
     printTable("forward stepwise BIC over the same candidates", all.stepwise);
     printTable("LASSO (BIC along the path) over the same candidates", all.lasso);
   }
+  printLimit(all);
   printExplained(all);
   printCalibration(all.confidences);
   fmt::print("search time on one core: median {:.0f} ms, 95 % below {:.0f} ms, longest {:.0f} ms ({})\n",

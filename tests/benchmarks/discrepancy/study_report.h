@@ -36,6 +36,7 @@ struct Outcomes {
   std::vector<std::vector<HeldOutCampaign>> explained = std::vector<std::vector<HeldOutCampaign>>(cells().size());
   std::vector<HeldOutSignal> held_out = std::vector<HeldOutSignal>(cells().size());  ///< of all campaigns together
   std::vector<std::vector<OracleFit>> oracle = std::vector<std::vector<OracleFit>>(cells().size());
+  std::vector<std::vector<double>> gains_of_missed = std::vector<std::vector<double>>(cells().size());
   std::vector<std::pair<double, bool>> confidences;  ///< of every name: stated, and whether it is hidden
   int unknowable = 0;                                ///< campaigns whose held-out states cannot be known
   std::vector<double> search_ms;
