@@ -25,6 +25,9 @@ if(SPINDRIFT_SANITIZE)
   target_compile_options(spindrift_options INTERFACE -fsanitize=${SPINDRIFT_SANITIZE} -fno-sanitize=vptr -fno-omit-frame-pointer
                                                      -fno-sanitize-recover=undefined)
   target_link_options(spindrift_options INTERFACE -fsanitize=${SPINDRIFT_SANITIZE})
+  # Under the address sanitizer Eigen would allocate in another way than in the libraries that bring its templates along,
+  # compiled without it, and each free what the other allocated. Memory of the sanitizer is aligned to 16 bytes as well.
+  target_compile_definitions(spindrift_options INTERFACE EIGEN_MALLOC_ALREADY_ALIGNED=1)
 endif()
 # What every test runs with. Sanitized programs are slower, report leaks of our own, and end at the first report.
 set(SPINDRIFT_TEST_ENVIRONMENT QT_QPA_PLATFORM=offscreen LC_ALL=C.UTF-8)
