@@ -67,7 +67,8 @@ nlohmann::json toJson(const PublishCount& count) {
   return {{"campaigns_new", count.campaigns_new},
           {"campaigns_there", count.campaigns_there},
           {"results_new", count.results_new},
-          {"results_there", count.results_there}};
+          {"results_there", count.results_there},
+          {"results_again", count.results_again}};
 }
 
 nlohmann::json toJson(const PlantListing& c) {
@@ -126,6 +127,9 @@ CommandResult publish(const PlantArguments& a, JobContext& job) {
   result.summary = fmt::format("{}: {} new, {} there already; {} new, {} there already\n", address.text(),
                                countOf(outcome.count.campaigns_new, "campaign"), outcome.count.campaigns_there,
                                countOf(outcome.count.results_new, "result"), outcome.count.results_there);
+  if (outcome.count.results_again > 0)
+    result.summary +=
+        fmt::format("in force again, in the place of later ones: {}\n", countOf(outcome.count.results_again, "result"));
   return result;
 }
 

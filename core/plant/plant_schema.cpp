@@ -74,8 +74,24 @@ void makeVersion2(PlantConnection& c) {
       "item))");
 }
 
+/// Which result of a kind holds: the last that was published as the one that does, also where the store had it already.
+/// A row for every change, never changed: who says what holds stays known.
+void makeVersion3(PlantConnection& c) {
+  run(c,
+      "create table standing (id {id}, campaign_id bigint not null references campaign(id), kind text not null, "
+      "result_id bigint not null references result(id), verdict text not null, publisher text not null, published_s "
+      "double precision not null)");
+  run(c, "create index standing_of_kind on standing (campaign_id, kind, id, result_id)");
+  // Lists read verdicts from here alone: rows of results are as wide as their models.
+  run(c, "drop index result_verdicts");
+  run(c, "create index standing_verdicts on standing (campaign_id, id, verdict)");
+  run(c,
+      "insert into standing (campaign_id, kind, result_id, verdict, publisher, published_s) select campaign_id, kind, "
+      "id, verdict, publisher, published_s from result order by id");
+}
+
 using Migration = void (*)(PlantConnection&);
-constexpr Migration migrations[] = {makeVersion1, makeVersion2};
+constexpr Migration migrations[] = {makeVersion1, makeVersion2, makeVersion3};
 static_assert(std::size(migrations) == newest_plant_schema);
 
 bool hasTable(PlantConnection& c, const std::string& name) {
@@ -107,7 +123,7 @@ void grantRights(PlantConnection& c) {
          "execute format('grant usage on schema plant to %I', r); "
          "execute format('grant select on all tables in schema plant to %I', r); "
          "if r = 'plant_writer' then "
-         "grant insert on machine, machine_event, campaign, capture, result, parameter, attempt, "
+         "grant insert on machine, machine_event, campaign, capture, result, parameter, standing, attempt, "
          "item_result to plant_writer; "
          "grant update (every_days, description) on machine to plant_writer; "
          "grant update (cancelled) on batch to plant_writer; "

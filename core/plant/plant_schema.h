@@ -6,7 +6,7 @@
 
 namespace spindrift {
 
-inline constexpr int newest_plant_schema = 2;
+inline constexpr int newest_plant_schema = 3;
 
 /// Version of the store's schema; 0: there is none yet.
 [[nodiscard]] int plantSchemaVersion(PlantConnection& connection);

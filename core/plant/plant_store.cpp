@@ -10,6 +10,7 @@
 #include <cmath>
 #include <map>
 #include <memory>
+#include <string_view>
 
 #include <soci/soci.h>
 
@@ -27,6 +28,10 @@ namespace {
 constexpr double clock_tolerance_s = 60.0;
 /// How far ahead of the store's clock a campaign may start, s.
 constexpr double future_tolerance_s = 300.0;
+
+/// Of a standing s: nothing of its kind was published of the campaign since.
+constexpr std::string_view in_force =
+    "not exists (select 1 from standing t where t.campaign_id = s.campaign_id and t.kind = s.kind and t.id > s.id)";
 
 nlohmann::json parsedText(const std::string& text, const std::string& address) {
   nlohmann::json out = deepestJson(text) <= most_levels_of_json ? nlohmann::json::parse(text, nullptr, false)
@@ -153,7 +158,15 @@ class PlantStore::Publishing {
             soci::use(campaign_id_), soci::use(key_), soci::use(result_.kind), soci::use(result_.program_version),
             soci::use(result_.created_utc), soci::use(result_.inputs_fingerprint), soci::use(options_),
             soci::use(result_.verdict), soci::use(covariance_), soci::use(model_), soci::use(campaign_.publisher),
-            soci::use(now_s_), soci::into(id_))) {}
+            soci::use(now_s_), soci::into(id_))),
+        insert_standing_(
+            (sql.prepare << "insert into standing (campaign_id, kind, result_id, verdict, publisher, published_s) "
+                            "select r.campaign_id, r.kind, r.id, r.verdict, :p, :q from result r where r.campaign_id = "
+                            ":c and r.content_key = :k and r.id <> coalesce((select s.result_id from standing s where "
+                            "s.campaign_id = r.campaign_id and s.kind = r.kind order by s.id desc limit 1), 0) "
+                            "returning id",
+             soci::use(campaign_.publisher), soci::use(now_s_), soci::use(campaign_id_), soci::use(key_),
+             soci::into(standing_))) {}
 
   void publish(const PlantCampaign& campaign, PublishCount& count) {
     campaign_ = campaign;
@@ -178,6 +191,8 @@ class PlantStore::Publishing {
       const bool added = insert_result_.execute(true);
       ++(added ? count.results_new : count.results_there);
       if (added) addParameters(id_);
+      // What is published holds, be it new or one that held before.
+      if (insert_standing_.execute(true) && !added) ++count.results_again;
     }
   }
 
@@ -277,11 +292,13 @@ class PlantStore::Publishing {
   long long machine_ = 0;
   long long campaign_id_ = 0;
   long long id_ = 0;
+  long long standing_ = 0;
   std::map<std::string, long long> machines_;
   std::map<std::size_t, Rows<PlantCapture>> captures_;
   std::map<std::size_t, Rows<PlantParameter>> parameters_;
   soci::statement insert_campaign_;
   soci::statement insert_result_;
+  soci::statement insert_standing_;
 };
 
 PublishCount PlantStore::publish(std::span<const PlantCampaign> campaigns) {
@@ -349,17 +366,16 @@ std::vector<PlantMachine> PlantStore::machines() {
     long long id = 0;
     long long campaigns = 0;
     PlantMachine m;
+    const std::string query = fmt::format(
+        "select m.id, m.name, m.every_days, count(c.id), coalesce(min(c.start_s), 0.0), "
+        "coalesce(max(c.start_s), 0.0), coalesce((select s.verdict from standing s where s.verdict <> '' and "
+        "s.campaign_id = (select k.id from campaign k where k.machine_id = m.id order by k.start_s desc, "
+        "k.id desc limit 1) and {} order by s.id desc limit 1), '') from machine m left join campaign c on "
+        "c.machine_id = m.id group by m.id, m.name, m.every_days order by m.name",
+        in_force);
     soci::statement select =
-        (connection_->sql().prepare
-             << "select m.id, m.name, m.every_days, count(c.id), coalesce(min(c.start_s), 0.0), "
-                "coalesce(max(c.start_s),"
-                " 0.0), coalesce((select r.verdict from result r where r.verdict <> '' and r.campaign_id = (select "
-                "k.id "
-                "from campaign k where k.machine_id = m.id order by k.start_s desc, k.id desc limit 1) order by r.id "
-                "desc limit 1), '') from machine m left join campaign c on c.machine_id = m.id group by m.id, m.name, "
-                "m.every_days order by m.name",
-         soci::into(id), soci::into(m.name), soci::into(m.every_days), soci::into(campaigns), soci::into(m.first_s),
-         soci::into(m.last_s), soci::into(m.last_verdict));
+        (connection_->sql().prepare << query, soci::into(id), soci::into(m.name), soci::into(m.every_days),
+         soci::into(campaigns), soci::into(m.first_s), soci::into(m.last_s), soci::into(m.last_verdict));
     select.execute();
     while (select.fetch()) {
       m.id = id;
@@ -387,17 +403,17 @@ std::vector<PlantListing> PlantStore::campaigns(const std::string& machine) {
     int results = 0;
     PlantListing c;
     if (!machine.empty()) (void)machineId(machine);
+    const std::string query = fmt::format(
+        "select c.id, m.name, c.name, c.start_s, c.program_version, c.publisher, c.fingerprint, coalesce("
+        "(select s.verdict from standing s where s.campaign_id = c.id and s.verdict <> '' and {} order by "
+        "s.id desc limit 1), ''), (select count(*) from result r where r.campaign_id = c.id) from campaign c "
+        "join machine m on m.id = c.machine_id where (:a = '' or m.name = :b) order by m.name, c.start_s, "
+        "c.id",
+        in_force);
     soci::statement select =
-        (connection_->sql().prepare
-             << "select c.id, m.name, c.name, c.start_s, c.program_version, c.publisher, c.fingerprint, "
-                "coalesce((select "
-                "r.verdict from result r where r.campaign_id = c.id and r.verdict <> '' order by r.id desc limit 1), "
-                "''), "
-                "(select count(*) from result r where r.campaign_id = c.id) from campaign c join machine m on m.id = "
-                "c.machine_id where (:a = '' or m.name = :b) order by m.name, c.start_s, c.id",
-         soci::use(machine), soci::use(machine), soci::into(id), soci::into(c.machine), soci::into(c.name),
-         soci::into(c.start_s), soci::into(c.program_version), soci::into(c.publisher), soci::into(c.fingerprint),
-         soci::into(c.verdict), soci::into(results));
+        (connection_->sql().prepare << query, soci::use(machine), soci::use(machine), soci::into(id),
+         soci::into(c.machine), soci::into(c.name), soci::into(c.start_s), soci::into(c.program_version),
+         soci::into(c.publisher), soci::into(c.fingerprint), soci::into(c.verdict), soci::into(results));
     select.execute();
     while (select.fetch()) {
       c.id = id;
@@ -470,8 +486,8 @@ std::vector<TrendPoint> PlantStore::trend(const std::string& machine, const std:
     soci::statement select =
         (connection_->sql().prepare
              << "select c.id, c.name, c.start_s, p.value, p.sigma from campaign c join result r on r.id = (select "
-                "max(n.id) "
-                "from result n where n.campaign_id = c.id and n.kind = :k) join parameter p on p.result_id = r.id and "
+                "s.result_id from standing s where s.campaign_id = c.id and s.kind = :k order by s.id desc limit 1) "
+                "join parameter p on p.result_id = r.id and "
                 "p.place = (select max(q.place) from parameter q where q.result_id = r.id and q.name = :n and (:s = '' "
                 "or q.state = :t)) where c.machine_id = :m order by c.start_s, c.id",
          soci::use(kind), soci::use(name), soci::use(state), soci::use(state), soci::use(machine_id), soci::into(id),
@@ -490,10 +506,13 @@ std::optional<PlantModel> PlantStore::newestModel(const std::string& machine) {
     const long long id = machineId(machine);
     PlantModel m;
     std::string text;
-    connection_->sql() << "select c.name, c.start_s, r.kind, r.model from campaign c join result r on r.campaign_id = "
-                          "c.id where c.machine_id = :m and r.model <> 'null' order by c.start_s desc, r.id desc limit "
-                          "1",
-        soci::use(id), soci::into(m.campaign_name), soci::into(m.time_s), soci::into(m.kind), soci::into(text);
+    const std::string query = fmt::format(
+        "select c.name, c.start_s, r.kind, r.model from campaign c join standing s on s.campaign_id = c.id "
+        "join result r on r.id = s.result_id where c.machine_id = :m and r.model <> 'null' and {} order by "
+        "c.start_s desc, s.id desc limit 1",
+        in_force);
+    connection_->sql() << query, soci::use(id), soci::into(m.campaign_name), soci::into(m.time_s), soci::into(m.kind),
+        soci::into(text);
     if (!connection_->sql().got_data()) return std::nullopt;
     m.model = parsedText(text, address());
     return m;

@@ -41,6 +41,7 @@ PublishCount& PublishCount::operator+=(const PublishCount& other) {
   campaigns_there += other.campaigns_there;
   results_new += other.results_new;
   results_there += other.results_there;
+  results_again += other.results_again;
   return *this;
 }
 

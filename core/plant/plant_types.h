@@ -62,12 +62,14 @@ struct PlantCampaign {
   [[nodiscard]] static PlantCampaign parse(const nlohmann::json& json, const std::string& what);
 };
 
-/// What publishing did: new in the store, or there already.
+/// What publishing did: new in the store, or there already; of these, results that hold again in the place of later
+/// ones.
 struct PublishCount {
   std::size_t campaigns_new = 0;
   std::size_t campaigns_there = 0;
   std::size_t results_new = 0;
   std::size_t results_there = 0;
+  std::size_t results_again = 0;
   PublishCount& operator+=(const PublishCount& other);
 };
 

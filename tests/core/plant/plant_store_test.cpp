@@ -74,6 +74,39 @@ TEST_P(PlantStoreTest, PublishingAgainByAnybodyAddsNothing) {
   EXPECT_EQ(trend[0].value, 5.0);
 }
 
+TEST_P(PlantStoreTest, WhatIsPublishedHoldsAlsoWhereItWasThereBefore) {
+  // A reading was left out and is taken back in: what was found first is true again.
+  PlantStore store = make();
+  PlantCampaign first = weeklyCampaign("mill", 1, 1.0);
+  first.results[0].verdict = "named";
+  first.results[0].model = {{"effects", 1}};
+  PlantCampaign without = first;
+  without.results[0].parameters[0].value = 5.0;
+  without.results[0].verdict = "none";
+  without.results[0].model = {{"effects", 2}};
+  const auto value = [&] { return store.trend("mill", "fit", "EZ_um").at(0).value; };
+  EXPECT_EQ(store.publish(std::span(&first, 1)).results_again, 0U);
+  EXPECT_EQ(store.publish(std::span(&without, 1)).results_again, 0U);
+  EXPECT_EQ(value(), 5.0);
+  EXPECT_EQ(store.machine("mill").last_verdict, "none");
+  const PublishCount again = store.publish(std::span(&first, 1));
+  EXPECT_EQ(again.results_new, 0U);
+  EXPECT_EQ(again.results_again, 1U);
+  EXPECT_EQ(value(), 1.0);
+  EXPECT_EQ(store.machine("mill").last_verdict, "named");
+  EXPECT_EQ(store.campaigns("mill").at(0).verdict, "named");
+  EXPECT_EQ(store.newestModel("mill")->model, first.results[0].model);
+  EXPECT_EQ(store.publish(std::span(&first, 1)).results_again, 0U) << "it holds already";
+  // Of the same kind without a model and a verdict: that of earlier ones is no longer true.
+  PlantCampaign rejected = first;
+  rejected.results[0].verdict.clear();
+  rejected.results[0].model = nullptr;
+  (void)store.publish(std::span(&rejected, 1));
+  EXPECT_EQ(store.machine("mill").last_verdict, "");
+  EXPECT_FALSE(store.newestModel("mill"));
+  EXPECT_EQ(store.campaign(store.campaigns("mill").at(0).id).results.size(), 3U);
+}
+
 TEST_P(PlantStoreTest, TwoPeopleAtTheSameMomentMakeNoDuplicates) {
   (void)make();
   PublishCount total;
@@ -162,20 +195,25 @@ TEST_P(PlantStoreTest, SaysInOneSentenceWhatIsWrongWithTheSchema) {
   (void)make();
   sql("update plant_schema set version = 99");
   EXPECT_THAT(refusal([&] { (void)PlantStore::open(address()); }),
-              HasSubstr("has schema version 99; allowed: 1 to 2. A newer program has changed it"));
+              HasSubstr("has schema version 99; allowed: 1 to 3. A newer program has changed it"));
   EXPECT_THAT(refusal([&] { (void)make(); }), HasSubstr("schema version 99"));
 }
 
 TEST_P(PlantStoreTest, BringsAnOlderStoreToThisVersionAndKeepsWhatIsInIt) {
   PlantStore store = make();
-  const PlantCampaign campaign = weeklyCampaign("mill", 1);
+  PlantCampaign campaign = weeklyCampaign("mill", 1);
+  campaign.results[0].model = {{"effects", 1}};
   (void)store.publish(std::span(&campaign, 1));
   // As version 1 left it.
-  sql("drop table item_result; drop table attempt; drop table chunk; drop table batch; update plant_schema set version "
+  sql("drop table standing; create index result_verdicts on result (campaign_id, id, verdict); "
+      "drop table item_result; drop table attempt; drop table chunk; drop table batch; update plant_schema set version "
       "= 1");
-  EXPECT_THAT(refusal([&] { (void)PlantStore::open(address()); }), HasSubstr("older than this program's 2"));
+  EXPECT_THAT(refusal([&] { (void)PlantStore::open(address()); }), HasSubstr("older than this program's 3"));
   PlantStore newer = make();
   EXPECT_EQ(newer.campaigns().size(), 1U);
+  EXPECT_EQ(newer.trend("mill", "fit", "EZ_um").size(), 1U);
+  EXPECT_TRUE(newer.newestModel("mill"));
+  EXPECT_EQ(newer.publish(std::span(&campaign, 1)).results_again, 0U);
   sql("select count(*) from item_result");
 }
 

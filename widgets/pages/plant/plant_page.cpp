@@ -642,6 +642,9 @@ void PlantPage::send(const std::shared_ptr<Publication>& publication, const Plan
                           coreSentence(countOf(outcome.count.results_new, "result")),
                           coreSentence(countOf(outcome.count.campaigns_there, "campaign")),
                           coreSentence(countOf(outcome.count.results_there, "result")))};
+      if (outcome.count.results_again > 0)
+        notice_->second += QLatin1Char(' ') + tr("In force again, in the place of later ones: %1.")
+                                                  .arg(coreSentence(countOf(outcome.count.results_again, "result")));
       for (const std::string& warning : outcome.warnings) notice_->second += QLatin1Char(' ') + coreSentence(warning);
       refresh();
     };
