@@ -477,9 +477,9 @@ HoleCycleResult evaluateHoleCycles(const TouchList& list, const MachineDescripti
       if (cycle == result.problem.reference_cycle || !(sum.second > 0.5)) continue;
       const double value = sum.first / sum.second * um_per_mm;
       values.push_back(value);
-      deviation.sigma_um = result.fit.group_sigma_mm[0] * um_per_mm / std::sqrt(sum.second);
-      if (std::abs(value) > std::abs(deviation.largest_um)) {
+      if (deviation.largest_cycle.empty() || std::abs(value) > std::abs(deviation.largest_um)) {
         deviation.largest_um = value;
+        deviation.sigma_um = result.fit.group_sigma_mm[0] * um_per_mm / std::sqrt(sum.second);
         deviation.largest_cycle = result.cycles[static_cast<std::size_t>(cycle)];
       }
     }

@@ -88,7 +88,7 @@ struct LinearityDeviation {
   double rms_um = 0.0;
   double largest_um = 0.0;  ///< signed
   std::string largest_cycle;
-  double sigma_um = 0.0;  ///< noise of one value
+  double sigma_um = 0.0;  ///< noise of the largest
 };
 
 /// The bar against its certificate in one cycle at c = 0: what the linear axis reads of lengths that are known.

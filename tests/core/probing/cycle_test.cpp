@@ -164,6 +164,24 @@ TEST_P(CycleKind, NoiseOfTheFirstCycleIsCommonToAllOthers) {
 INSTANTIATE_TEST_SUITE_P(Probing, CycleKind, ::testing::Values(true, false),
                          [](const auto& kind) { return kind.param ? "holes" : "balls"; });
 
+TEST(HoleCycle, TheLargestDeviationFromTheLineHasTheNoiseOfItsOwnCycle) {
+  const MachineDescription m = machineFrom(holeMachineText());
+  VirtualRun run = runCycles(m, 6, {}, 9);
+  const auto linearity = [&] { return evaluateHoleCycles(run.list, m, m.artefacts.front()).linearity; };
+  std::map<std::string, LinearityDeviation> whole;
+  for (const LinearityDeviation& d : linearity()) whole[d.feature] = d;
+  const std::string last = run.list.touches.back().cycle;
+  std::erase_if(run.list.touches, [&](const Touch& t) { return t.cycle == last && t.approach.x() > 0.5; });
+  int compared = 0;
+  for (const LinearityDeviation& d : linearity()) {
+    EXPECT_GT(d.sigma_um, 0.0);
+    if (d.largest_cycle == last || whole.at(d.feature).largest_cycle == last) continue;
+    EXPECT_NEAR(d.sigma_um, whole.at(d.feature).sigma_um, 0.1 * d.sigma_um) << d.feature;
+    ++compared;
+  }
+  EXPECT_GE(compared, 3);
+}
+
 TEST(HoleCycle, MissingTouchesLeaveTheRestAndNameWhatIsOpen) {
   const MachineDescription m = machineFrom(holeMachineText());
   VirtualProbeOptions options;
