@@ -187,9 +187,10 @@ void tellEffects(const Solution& solution, DiscrepancyResult& result) {
   result.effect_part = std::move(part);
 }
 
-/// Where what is named is a part of the simulation: by how much that is off.
-void tellErrorsOfParts(const Solution& solution, DiscrepancyResult& result) {
-  if (solution.input.tangents) return;  // a simulator's own parameters are put into it (into_simulation.h)
+/// Where what is named is a part of the simulation: by how much that is off. Returns these.
+std::vector<std::string> tellErrorsOfParts(const Solution& solution, DiscrepancyResult& result) {
+  std::vector<std::string> parts;
+  if (solution.input.tangents) return parts;  // a simulator's own parameters are put into it (into_simulation.h)
   const JointFit& named = solution.judged.named;
   for (std::size_t t = 0; t < solution.effects.size(); ++t) {
     const ModelEffect& effect = solution.effects[t];
@@ -205,7 +206,9 @@ void tellErrorsOfParts(const Solution& solution, DiscrepancyResult& result) {
     result.warnings.push_back(fmt::format("The simulation has {} already: {:.0f} ± {:.0f} % too {} of it.", error->id,
                                           100.0 * std::abs(error->relative), std::max(1.0, 100.0 * error->uncertainty),
                                           error->relative > 0.0 ? "much" : "little"));
+    parts.push_back(error->id);
   }
+  return parts;
 }
 
 /// The most probable candidates, and what each that was rejected is given up for.
@@ -235,7 +238,9 @@ void tellCandidates(const EffectPosterior& posterior, const DiscrepancyOptions& 
   }
 }
 
-std::string sentenceOf(const DiscrepancyResult& result, const DiscrepancyOptions& options) {
+/// `parts`: effects found that the simulation has, of another size.
+std::string sentenceOf(const DiscrepancyResult& result, const std::vector<std::string>& parts,
+                       const DiscrepancyOptions& options) {
   const NoiseEstimate* far = farAboveStated(result.noise);
   switch (result.verdict) {
     case DiscrepancyVerdict::None:
@@ -255,11 +260,16 @@ std::string sentenceOf(const DiscrepancyResult& result, const DiscrepancyOptions
     case DiscrepancyVerdict::Ambiguous:
       break;
   }
-  std::vector<std::string> names;
-  for (const FoundEffect& e : result.effects) names.push_back(e.id);
-  const bool ambiguous = result.verdict == DiscrepancyVerdict::Ambiguous;
-  return fmt::format("Missing in the simulation: {}{}.", joinedList(names),
-                     ambiguous ? "; these data do not distinguish at least one of them from its rivals" : "");
+  std::vector<std::string> missing;
+  for (const FoundEffect& e : result.effects)
+    if (std::find(parts.begin(), parts.end(), e.id) == parts.end()) missing.push_back(e.id);
+  const char* rivals = result.verdict == DiscrepancyVerdict::Ambiguous
+                           ? "; these data do not distinguish at least one of them from its rivals"
+                           : "";
+  if (parts.empty()) return fmt::format("Missing in the simulation: {}{}.", joinedList(missing), rivals);
+  if (missing.empty()) return fmt::format("Of the wrong size in the simulation: {}{}.", joinedList(parts), rivals);
+  return fmt::format("Missing in the simulation: {}; of the wrong size in it: {}{}.", joinedList(missing),
+                     joinedList(parts), rivals);
 }
 
 /// What too few observations leave to say.
@@ -381,7 +391,7 @@ DiscrepancyResult findDiscrepancy(const DiscrepancyInput& given, const Discrepan
   fitModel(solution);
   result.model = std::make_shared<EffectModel>(analysis.drivers, solution.averaged, nullptr, input.base_table);
   tellEffects(solution, result);
-  tellErrorsOfParts(solution, result);
+  const std::vector<std::string> parts = tellErrorsOfParts(solution, result);
   tellNoise(problem, analysis.posterior.fit, analysis.remainder, input.observations.rows, result);
   result.noise_model = std::make_shared<const NoiseModel>(problem.noise);
   result.twins = analysis.hypotheses.twins(problem);
@@ -409,7 +419,7 @@ DiscrepancyResult findDiscrepancy(const DiscrepancyInput& given, const Discrepan
   result.decided = answer.enough;
   result.status = answer.enough ? FitStatus::Converged : FitStatus::Degenerate;
   if (answer.enough) {
-    result.message = sentenceOf(result, options);
+    result.message = sentenceOf(result, parts, options);
   } else {
     tellUndecided(solution, result);
   }

@@ -12024,6 +12024,18 @@ endgültig fehlgeschlagen: {}</translation>
         <source>The ball screw is warmer where the nut travels, so its growth rises faster than in proportion to the distance from the fixed bearing. Where the simulation has the mean temperature of the screw, what is left vanishes at both ends of the travel.</source>
         <translation>Der Kugelgewindetrieb ist dort wärmer, wo die Mutter fährt; seine Ausdehnung steigt daher schneller als proportional zum Abstand vom Festlager. Wo die Simulation seine mittlere Temperatur kennt, verschwindet an beiden Enden des Verfahrwegs, was übrig bleibt.</translation>
     </message>
+    <message>
+        <source>Missing in the simulation: {}; of the wrong size in it: {}{}.</source>
+        <translation>In der Simulation fehlt: {}; mit falscher Größe enthalten: {}{}.</translation>
+    </message>
+    <message>
+        <source>Of the wrong size in the simulation: {}{}.</source>
+        <translation>In der Simulation mit falscher Größe enthalten: {}{}.</translation>
+    </message>
+    <message>
+        <source>not exists (select 1 from standing t where t.campaign_id = s.campaign_id and t.kind = s.kind and t.id &gt; s.id)</source>
+        <translation type="unfinished"></translation>
+    </message>
 </context>
 <context>
     <name>files</name>

@@ -86,6 +86,7 @@ TEST(RoughSimulation, OfAPartThatIsNamedItIsSaidByHowMuchItIsOff) {
       const std::string begin = "The simulation has " + off + " already: ";
       if (!warning.starts_with(begin)) continue;
       ++told;
+      EXPECT_EQ(result.message, "Of the wrong size in the simulation: " + off + ".");
       double percent = 0.0;
       double uncertainty = 0.0;
       ASSERT_EQ(std::sscanf(warning.c_str() + begin.size(), "%lf ± %lf", &percent, &uncertainty), 2) << warning;
