@@ -304,6 +304,8 @@ void View3D::ensureFrame(const QSize& size, double ratio) {
   if (scene_ == nullptr) return;
   const QSize pixels(std::max(1, static_cast<int>(std::lround(size.width() * ratio))),
                      std::max(1, static_cast<int>(std::lround(size.height() * ratio))));
+  // Notes that came after the fit would cover what it shows.
+  if (camera_ == automatic_ && placeOfNotes(size, arrangement_).height() > fitted_beside_.height()) fitted_ = false;
   if (!fitted_) {
     const Camera before = camera_;
     fitCamera(size);

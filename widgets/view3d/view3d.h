@@ -253,6 +253,7 @@ class View3D : public QWidget {
   [[nodiscard]] Camera cameraFor(const QSize& size, const Arrangement& arrangement) const;
   /// What the notes at the top left say: caption, exaggeration, what faded and striped mean.
   [[nodiscard]] QStringList notes(const QSize& size) const;
+  [[nodiscard]] QRectF placeOfNotes(const QSize& size, const Arrangement& arrangement) const;
   void cameraMoved();  ///< redraw, thinned, and refine a moment later
   void ensureFrame(const QSize& size, double ratio);
   /// True if another view drew its first picture in this turn of the event loop: this one is painted again in the next.
@@ -292,10 +293,11 @@ class View3D : public QWidget {
   QString failure_;
   QImage frame_;
   bool dirty_ = true;
-  bool at_map_ = false;  ///< looks at the map, whatever it will be
-  bool fitted_ = false;  ///< the camera has been fitted to the content
-  Camera automatic_;     ///< as it was fitted: while nobody turns it, it is fitted again when the size changes
-  QSize automatic_for_;  ///< the size that it was fitted to
+  bool at_map_ = false;   ///< looks at the map, whatever it will be
+  bool fitted_ = false;   ///< the camera has been fitted to the content
+  Camera automatic_;      ///< as it was fitted: while nobody turns it, it is fitted again when the size changes
+  QSize automatic_for_;   ///< the size that it was fitted to
+  QRectF fitted_beside_;  ///< the place of the notes then
   bool following_ = false;
   QPointF press_position_;
   QPointF last_position_;

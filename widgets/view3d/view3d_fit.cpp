@@ -47,6 +47,12 @@ QMarginsF View3D::marginsFor(const QSize& size, const Arrangement& arrangement) 
   return margins;
 }
 
+QRectF View3D::placeOfNotes(const QSize& size, const Arrangement& arrangement) const {
+  const double bar = showsScale() && !arrangement.bar_below ? colourBarWidth(*scale_) : 0.0;
+  const double room = size.width() - 48 - bar;
+  return notesPanel(wrappedNotes(notes(size), room, size.height()), room);
+}
+
 Camera View3D::cameraFor(const QSize& size, const Arrangement& arrangement) const {
   const auto box = *extent();
   const QSizeF pane(size);
@@ -64,9 +70,7 @@ Camera View3D::cameraFor(const QSize& size, const Arrangement& arrangement) cons
     camera.fit(box.first, box.second, pane, margins + labels);
   }
   // Notes and buttons move it only where they would cover it.
-  const double bar = showsScale() && !arrangement.bar_below ? colourBarWidth(*scale_) : 0.0;
-  const double room = pane.width() - 48 - bar;
-  const QRectF notes_panel = notesPanel(wrappedNotes(notes(size), room, size.height()), room);
+  const QRectF notes_panel = placeOfNotes(size, arrangement);
   QRectF seen = camera.frame(box.first, box.second, pane).marginsAdded(labels);
   if (seen.intersects(notes_panel)) {
     labels.setTop(labels.top() + std::min(notes_panel.bottom(), most_for_notes * pane.height()) - margins.top() +
@@ -115,6 +119,7 @@ void View3D::fitCamera(const QSize& size) {
     automatic_ = camera_ = other->camera_;
     automatic_for_ = other->automatic_for_;
     arrangement_ = other->arrangement_;
+    fitted_beside_ = placeOfNotes(size, arrangement_);
     fitted_ = true;
     return;
   }
@@ -132,6 +137,7 @@ void View3D::fitCamera(const QSize& size) {
   arrangement_ = arrangements[best];
   automatic_ = camera_;
   automatic_for_ = size;
+  fitted_beside_ = placeOfNotes(size, arrangement_);
   fitted_ = true;
   if (!fitting_for_picture_) tools_->arrangeSoon();
   // Linked views that nobody has turned yet look at the same.

@@ -396,6 +396,41 @@ TEST(Notes, TakeNoMoreThanAThirdOfTheView) {
   }
 }
 
+TEST(Notes, ThatComeAfterTheFitDoNotCoverTheMap) {
+  View3D view;
+  view.resize(480, 400);
+  view.setMachine(desktopMill());
+  view.setMachineVisible(false);
+  view.setField(tiltedField(40), {});
+  view.lookAtMap();
+  view.show();
+  QApplication::processEvents();
+  (void)view.grab();
+  QStringList notes;
+  const auto mapTop = [&] {
+    double top = 1e9;
+    for (const double y : {0.0, 140.0})
+      for (const double x : {0.0, 320.0})
+        if (const auto pixel = view.pixelOf({x, y, 0})) top = std::min(top, pixel->y());
+    return top;
+  };
+  const double before = mapTop();
+  for (int line = 0; line < 6; ++line)
+    notes << QStringLiteral("What arrows, colours and stripes mean, line %1").arg(line);
+  const double bottom = notesPanel(wrappedNotes(notes, 340, 400), 340).bottom();
+  ASSERT_GT(bottom, before) << "they would not cover it anyway";
+  view.setCaption(notes.join(QLatin1Char('\n')));
+  (void)view.grab();
+  EXPECT_GT(mapTop(), bottom);
+  // Who turned it has decided what is covered.
+  Camera turned = view.camera();
+  turned.half_height_mm *= 0.8;
+  view.setCamera(turned);
+  view.setCaption(notes.join(QLatin1Char('\n')) + QStringLiteral("\nOne more\nand one more"));
+  (void)view.grab();
+  EXPECT_TRUE(view.camera() == turned);
+}
+
 TEST(MachineBodies, RotaryAxesAreRoundBodiesWhereTheChainHasThem) {
   MachineDescription machine = desktopMill();
   const auto about = [&](const char* chain, const QString& part) {
