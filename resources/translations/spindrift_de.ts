@@ -21351,6 +21351,10 @@ ihrem Ordner und führen nicht hinaus.
         <source>Position from</source>
         <translation>Wegmessung</translation>
     </message>
+    <message>
+        <source>Number</source>
+        <translation>Anzahl</translation>
+    </message>
 </context>
 <context>
     <name>spindrift::gui::MachineStateLine</name>

@@ -71,22 +71,26 @@ Camera View3D::cameraFor(const QSize& size, const Arrangement& arrangement) cons
   }
   // Notes and buttons move it only where they would cover it.
   const QRectF notes_panel = placeOfNotes(size, arrangement);
+  QMarginsF taken = margins + labels;
   QRectF seen = camera.frame(box.first, box.second, pane).marginsAdded(labels);
-  if (seen.intersects(notes_panel)) {
-    labels.setTop(labels.top() + std::min(notes_panel.bottom(), most_for_notes * pane.height()) - margins.top() +
-                  sizes::half_step);
-    camera.fit(box.first, box.second, pane, margins + labels);
+  const auto fitBesideNotes = [&] {
+    if (seen.intersects(notes_panel)) {
+      const double below = std::min(notes_panel.bottom(), most_for_notes * pane.height()) + sizes::half_step;
+      taken.setTop(std::max(taken.top(), below + labels.top()));
+      camera.fit(box.first, box.second, pane, taken);
+    }
     seen = camera.frame(box.first, box.second, pane).marginsAdded(labels);
-  }
+  };
+  fitBesideNotes();
   const QMarginsF tools = fitting_for_picture_ ? QMarginsF() : tools_->margins(arrangement.tools_in_column);
   const bool move_the_bar = showsScale() && (arrangement.bar_below || tools.right() > 0.0);
-  QMarginsF taken = margins + labels;
   if (!tools.isNull() && (move_the_bar || seen.intersects(tools_->place(arrangement.tools_in_column)))) {
     taken += tools;
     camera.fit(box.first, box.second, pane, taken);
+    seen = camera.frame(box.first, box.second, pane).marginsAdded(labels);
+    fitBesideNotes();  // from which the buttons may have pushed it
   }
   // A map stands beside the axes in the corner, or above them, where that costs it little.
-  seen = camera.frame(box.first, box.second, pane).marginsAdded(labels);
   const QRectF axes = triadPlace(QRectF(QPointF(0, 0), pane), camera);
   if (bodies_ && !machine_visible_ && !surface_ && seen.intersects(axes)) {
     std::optional<Camera> clear;
@@ -99,9 +103,12 @@ Camera View3D::cameraFor(const QSize& size, const Arrangement& arrangement) cons
       }
       Camera moved = camera;
       moved.fit(box.first, box.second, pane, more);
+      if (camera.frame(box.first, box.second, pane).marginsAdded(labels).intersects(notes_panel) !=
+          moved.frame(box.first, box.second, pane).marginsAdded(labels).intersects(notes_panel))
+        continue;
       if (!clear || moved.half_height_mm < clear->half_height_mm) clear = moved;
     }
-    if (clear->half_height_mm < most_for_axes * camera.half_height_mm) camera = *clear;
+    if (clear && clear->half_height_mm < most_for_axes * camera.half_height_mm) camera = *clear;
   }
   return camera;
 }

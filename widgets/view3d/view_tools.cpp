@@ -139,12 +139,16 @@ QSize ViewTools::openSize(bool in_column) const {
   return in_column ? QSize(width, length) : QSize(length, width);
 }
 
+bool ViewTools::isOpen() const {
+  return view_->width() >= openSize(false).width() + triad_px + margin_px && view_->height() >= least_height_px;
+}
+
 bool ViewTools::columnFits() const {
-  return open_ && view_->height() >= openSize(true).height() + 2 * margin_px;
+  return isOpen() && view_->height() >= openSize(true).height() + 2 * margin_px;
 }
 
 QRectF ViewTools::place(bool in_column) const {
-  const QSizeF size = open_ ? QSizeF(openSize(in_column)) : QSizeF(sizes::control_height, sizes::control_height);
+  const QSizeF size = isOpen() ? QSizeF(openSize(in_column)) : QSizeF(sizes::control_height, sizes::control_height);
   return {QPointF(view_->width() - size.width() - margin_px, view_->height() - size.height() - margin_px), size};
 }
 
@@ -163,11 +167,10 @@ void ViewTools::arrangeSoon() {
 void ViewTools::arrange() {
   const bool shown = !view_->empty() && view_->failure().isEmpty();
   const bool in_column = view_->arrangement().tools_in_column && columnFits();
-  open_ = view_->width() >= openSize(false).width() + triad_px + margin_px && view_->height() >= least_height_px;
-  setVisible(shown && open_);
-  menu_button_->setVisible(shown && !open_);
+  setVisible(shown && isOpen());
+  menu_button_->setVisible(shown && !isOpen());
   line_->setDirection(in_column ? QBoxLayout::TopToBottom : QBoxLayout::LeftToRight);
-  QWidget* here = open_ ? static_cast<QWidget*>(this) : menu_button_;
+  QWidget* here = isOpen() ? static_cast<QWidget*>(this) : menu_button_;
   here->setGeometry(place(in_column).toRect());
   here->raise();
   clip_panel_->setVisible(shown && view_->clip().has_value());

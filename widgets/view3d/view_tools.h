@@ -26,7 +26,7 @@ class ViewTools : public QFrame {
   /// Goes where the view has arranged it, in the next turn of the event loop.
   void arrangeSoon();
   /// False: one button holds everything.
-  [[nodiscard]] bool isOpen() const { return open_; }
+  [[nodiscard]] bool isOpen() const;
   [[nodiscard]] bool columnFits() const;
   /// The rectangle that the buttons take, at the bottom right, as a row or as a column; pixels of the view.
   [[nodiscard]] QRectF place(bool in_column) const;
@@ -61,7 +61,6 @@ class ViewTools : public QFrame {
   bool keep_low_ = true;
   double clip_low_mm_ = 0.0;
   double clip_high_mm_ = 1.0;
-  bool open_ = false;
 };
 
 }  // namespace spindrift::gui

@@ -431,6 +431,27 @@ TEST(Notes, ThatComeAfterTheFitDoNotCoverTheMap) {
   EXPECT_TRUE(view.camera() == turned);
 }
 
+TEST(Notes, AreNotCoveredByAMapThatTheButtonsPushUp) {
+  View3D view;
+  view.resize(476, 485);
+  view.setMachine(desktopMill());
+  view.setMachineVisible(false);
+  view.setColourScale(ColourScale::symmetric(15, QStringLiteral("EX"), QStringLiteral("um")));
+  view.setField(tiltedField(50));
+  const QStringList notes{QStringLiteral("EX of state M1 against M0"),
+                          QStringLiteral("Arrows 1000 times larger than the deviation"),
+                          QStringLiteral("Faded: within 2 standard uncertainties of zero"),
+                          QStringLiteral("Striped: outside the measured points")};
+  view.setCaption(notes.mid(0, 2).join(QLatin1Char('\n')));  // of the others it speaks itself
+  view.lookAtMap();
+  view.show();
+  QApplication::processEvents();
+  (void)view.grab();
+  const auto box = view.extent();
+  ASSERT_TRUE(box);
+  EXPECT_GT(view.camera().frame(box->first, box->second, view.size()).top(), notesPanel(notes, 1000).bottom());
+}
+
 TEST(MachineBodies, RotaryAxesAreRoundBodiesWhereTheChainHasThem) {
   MachineDescription machine = desktopMill();
   const auto about = [&](const char* chain, const QString& part) {

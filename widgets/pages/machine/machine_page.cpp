@@ -118,16 +118,19 @@ MachinePage::MachinePage(PageContext page_context, QWidget* parent)
                      tr("Linear axes"));
   for (const int column : {4, 7}) axes_->setItemDelegateForColumn(column, new KindWords(axes_));
   card->body()->addWidget(axes_, 2);
-  card->body()->addWidget(makeLabel(tr("Measuring points"), "sectionTitle"));
+  auto* points_title = new QHBoxLayout;
+  points_title->setSpacing(8);
+  points_title->addWidget(makeLabel(tr("Measuring points"), "sectionTitle"), 1);
+  auto* add = makeButton(tr("Add point"), "plus");
+  auto* remove = makeButton(tr("Remove point"), "trash");
+  points_title->addWidget(add);
+  points_title->addWidget(remove);
+  card->body()->addLayout(points_title);
   points_ = makeEditor({tr("Point"), tr("Kind"), tr("x / mm"), tr("y / mm"), tr("z / mm")}, tr("Measuring points"),
                        tr("No measuring point yet."));
   points_->setItemDelegateForColumn(1, new KindWords(points_));
   card->body()->addWidget(points_, 3);
-  auto* point_buttons = new WrapLayout;
-  auto* add = makeButton(tr("Add point"), "plus");
-  auto* remove = makeButton(tr("Remove point"), "trash");
-  point_buttons->addWidget(add);
-  point_buttons->addWidget(remove);
+  auto* suggesting = new WrapLayout;
   suggest_count_ = new QSpinBox;
   suggest_count_->setRange(3, 20);
   suggest_count_->setValue(6);
@@ -140,10 +143,13 @@ MachinePage::MachinePage(PageContext page_context, QWidget* parent)
   suggest_->setToolTip(
       tr("Chooses, from a lattice over the table, where so many fiducials determine the nine parameters best: smallest "
          "mean variance of the heat map (I-optimal) or smallest confidence region of the parameters (D-optimal)"));
-  point_buttons->addWidget(suggest_count_);
-  point_buttons->addWidget(suggest_goal_);
-  point_buttons->addWidget(suggest_);
-  card->body()->addLayout(point_buttons);
+  auto* number = new QLabel(tr("Number"));
+  number->setBuddy(suggest_count_);
+  suggesting->addWidget(number);
+  suggesting->addWidget(suggest_count_);
+  suggesting->addWidget(suggest_goal_);
+  suggesting->addWidget(suggest_);
+  card->body()->addLayout(suggesting);
 
   auto* picture = new Card(tr("How it is built"));
   view_ = new View3D;
