@@ -58,6 +58,20 @@ nlohmann::json stepsOf(const Session& session, const CampaignRecord& record, std
 
 CommandResult stateOf(const SessionArguments& arguments, JobContext& job) {
   CommandResult result;
+  // First the files of all: a result of one campaign may rest on another.
+  std::vector<InputError> unreadable;
+  std::map<std::int64_t, FileCheck> checked;
+  {
+    Session session = Session::open(arguments.folder);
+    result.warnings = session.recoveryMessages();
+    for (const CampaignRecord& record : session.campaigns()) {
+      try {
+        checked[record.id] = session.takeFiles(record.id, fingerprintsOfFiles(record.folder, job));
+      } catch (const InputError& error) {
+        if (arguments.campaign.empty() || record.name == arguments.campaign) unreadable.push_back(error);
+      }
+    }
+  }
   if (!arguments.run.empty()) {
     // Closed again before the session is looked at.
     SessionSource source(arguments.folder, arguments.campaign, job);
@@ -71,16 +85,15 @@ CommandResult stateOf(const SessionArguments& arguments, JobContext& job) {
                       : outdated          ? "nothing is outdated: nothing was run\n"
                                           : fmt::format("{} is current: nothing was run\n", arguments.run);
     if (!failures.empty()) result.exit_status = NotGoodEnough;
-    result.warnings = std::move(failures);
+    result.warnings.insert(result.warnings.end(), failures.begin(), failures.end());
   }
   Session session = Session::open(arguments.folder);
   result.json["campaigns"] = nlohmann::json::array();
-  result.warnings.insert(result.warnings.end(), session.recoveryMessages().begin(), session.recoveryMessages().end());
-  std::vector<InputError> unreadable;
   for (const CampaignRecord& record : session.campaigns()) {
     if (!arguments.campaign.empty() && record.name != arguments.campaign) continue;
+    if (!checked.contains(record.id)) continue;
     try {
-      const FileCheck files = session.takeFiles(record.id, fingerprintsOfFiles(record.folder, job));
+      const FileCheck& files = checked[record.id];
       std::string summary = printable(record.name) + "\n";
       if (!files.same()) result.warnings.push_back(printable(record.name) + ": " + files.sentence() + ".");
       nlohmann::json steps = stepsOf(session, record, summary);

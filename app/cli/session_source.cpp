@@ -30,6 +30,14 @@ CampaignState stateOf(const Session& session, const std::string& campaign) {
 
 SessionSource::SessionSource(const std::filesystem::path& folder, const std::string& campaign, JobContext& job)
     : session_(Session::open(folder)), tasks_(session_, stateOf(session_, campaign)) {
+  // Results may rest on other campaigns as well. One of these that cannot be read is told where it is used.
+  for (const CampaignRecord& record : session_.campaigns()) {
+    if (record.id == state().id) continue;
+    try {
+      session_.takeFiles(record.id, fingerprintsOfFiles(record.folder, job));
+    } catch (const InputError&) {
+    }
+  }
   session_.takeFiles(state().id, fingerprintsOfFiles(state().campaign->folder, job));
 }
 
