@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <numeric>
 #include <set>
@@ -62,6 +63,37 @@ std::map<SeriesKey, Course, NaturalOrder> coursesOf(const ObservationSet& set) {
     v.position_mm = o.position_mm;
   }
   return out;
+}
+
+/// Names of the states of all series.
+template <typename Courses>
+std::set<std::string> statesOf(const Courses& courses) {
+  std::set<std::string> out;
+  for (const auto& [key, course] : courses) out.insert(course.states.begin(), course.states.end());
+  return out;
+}
+
+/// The state that was measured first; empty without any.
+std::string firstState(const ObservationSet& set) {
+  const Observation* first = nullptr;
+  for (const Observation& o : set.rows)
+    if (o.use != ObservationUse::Exclude && (first == nullptr || o.time_s < first->time_s)) first = &o;
+  return first == nullptr ? std::string() : first->state;
+}
+
+/// Which states of two courses are the same, their common zero first: by name, and by their order where campaigns share
+/// no name. Empty where they have no common zero.
+std::vector<std::pair<std::string, std::string>> sameStates(const Course& before, const Course& after, bool by_name) {
+  std::vector<std::pair<std::string, std::string>> pairs;
+  if (!by_name) {
+    if (before.states.size() != after.states.size()) return pairs;
+    for (std::size_t k = 0; k < before.states.size(); ++k) pairs.emplace_back(before.states[k], after.states[k]);
+    return pairs;
+  }
+  if (!after.values.contains(before.states.front())) return pairs;
+  for (const std::string& state : before.states)
+    if (after.values.contains(state)) pairs.emplace_back(state, state);
+  return pairs;
 }
 
 /// The weighted mean of rows, times `factor`.
@@ -336,27 +368,44 @@ VerifyResult verifyCompensation(const ObservationSet& before, const ObservationS
   const auto second = coursesOf(after);
   const NoiseOfRows noise_before(before);
   const NoiseOfRows noise_after(after);
+  const std::set<std::string> states_before = statesOf(first);
+  const std::set<std::string> states_after = statesOf(second);
+  std::vector<std::string> only_before;
+  std::vector<std::string> only_after;
+  std::set_difference(states_before.begin(), states_before.end(), states_after.begin(), states_after.end(),
+                      std::back_inserter(only_before));
+  std::set_difference(states_after.begin(), states_after.end(), states_before.begin(), states_before.end(),
+                      std::back_inserter(only_after));
+  const bool by_name = only_before.size() < states_before.size();
+  const std::string zero_state = firstState(before);
+  if (by_name && !states_after.contains(zero_state)) {
+    throw InputError({after.file, ""},
+                     fmt::format("holds no usable reading of {}, the first state before, which all changes are "
+                                 "relative to: what is left of them is not known; allowed: the same plan measured "
+                                 "again, its first state included.",
+                                 zero_state));
+  }
   std::size_t missing = 0;
   std::size_t other_side = 0;
   std::set<std::string> moved;
   for (const auto& [key, course] : first) {
     const auto other = second.find(key);
-    if (other == second.end() || course.states.size() < 2 || other->second.states.size() < 2) {
+    const auto pairs = other == second.end() ? std::vector<std::pair<std::string, std::string>>()
+                                             : sameStates(course, other->second, by_name);
+    if (pairs.size() < 2) {
       ++missing;
       continue;
     }
-    const Value& zero = course.values.at(course.states.front());
-    const Value& elsewhere = other->second.values.at(other->second.states.front());
+    const Value& zero = course.values.at(pairs.front().first);
+    const Value& elsewhere = other->second.values.at(pairs.front().second);
     if ((zero.position_mm - elsewhere.position_mm).norm() > same_place_mm) {
       moved.insert(key.first);
       continue;
     }
-    // The same plan has the same number of states; names may differ, their order may not.
-    const std::size_t states = std::min(course.states.size(), other->second.states.size());
-    if (course.states.size() != other->second.states.size()) ++missing;
-    for (std::size_t k = 1; k < states; ++k) {
-      const Value& a = course.values.at(course.states[k]);
-      const Value& b = other->second.values.at(other->second.states[k]);
+    if (pairs.size() < std::max(course.states.size(), other->second.states.size())) ++missing;
+    for (std::size_t k = 1; k < pairs.size(); ++k) {
+      const Value& a = course.values.at(pairs[k].first);
+      const Value& b = other->second.values.at(pairs[k].second);
       const ChangeOfRows change_before = changeOf(before, a, zero);
       const ChangeOfRows change_after = changeOf(after, b, elsewhere);
       other_side += change_before.from_another_side || change_after.from_another_side ? 1U : 0U;
@@ -364,7 +413,7 @@ VerifyResult verifyCompensation(const ObservationSet& before, const ObservationS
       NoiseCauses after_causes = noise_after.causesOf(change_after.rows);
       const double before_sigma = sigmaOf(before_causes);
       const double after_sigma = sigmaOf(after_causes);
-      result.points.push_back({key.first, other->second.states[k], b.position_mm, key.second.first,
+      result.points.push_back({key.first, pairs[k].second, b.position_mm, key.second.first,
                                valueOf(before, change_before.rows), before_sigma, valueOf(after, change_after.rows),
                                after_sigma, key.second.second, std::move(before_causes), std::move(after_causes)});
     }
@@ -384,6 +433,13 @@ VerifyResult verifyCompensation(const ObservationSet& before, const ObservationS
                                        joinedList(std::vector<std::string>(moved.begin(), moved.end())),
                                        same_place_mm));
   }
+  const auto leftOut = [&](std::vector<std::string> states, const char* where) {
+    if (!by_name || states.empty()) return;
+    std::sort(states.begin(), states.end(), NaturalOrder());
+    result.notes.push_back(fmt::format("Measured only {}, and left out: {}.", where, shortenedList(states)));
+  };
+  leftOut(only_before, "before");
+  leftOut(only_after, "after");
   if (missing > 0) {
     result.notes.push_back(fmt::format(
         "Not measured alike before and after: {} of points and components. Only what both have is compared.",
@@ -426,14 +482,27 @@ VerifyResult verifyCampaigns(const Campaign& before, const ObservationSet& befor
     notes.push_back(fmt::format("The machines have different names: \"{}\" before, \"{}\" after.", before.machine.name,
                                 after.machine.name));
   }
+  const auto described = [](const Campaign& campaign, const char* key) {
+    const nlohmann::json& source = campaign.machine.source;
+    return source.is_object() && source.contains(key) ? source[key] : nlohmann::json();
+  };
+  for (const char* key : {"chain", "axes"}) {
+    if (described(before, key) == described(after, key)) continue;
+    notes.push_back(fmt::format("The machine files differ in \"{}\": the same machine is to be compared.", key));
+  }
   if (!left_out.empty()) notes.push_back("Before: " + left_out);
   if (after.log && after.log->has(compensation_signal)) {
     std::size_t off = 0;
     std::size_t on = 0;
+    // The first state is what the others are compared with, compensated or not: the machine is cold then.
+    const std::string zero = firstState(second);
+    bool zero_off = false;
     for (Observation& o : second.rows) {
       if (o.use == ObservationUse::Exclude) continue;
       if (wasCompensating(*after.log, o.time_s)) {
         ++on;
+      } else if (o.state == zero) {
+        zero_off = true;
       } else {
         o.use = ObservationUse::Exclude;
         ++off;
@@ -444,6 +513,11 @@ VerifyResult verifyCampaigns(const Campaign& before, const ObservationSet& befor
                        "is 0 whenever something was measured, so there is nothing to verify; allowed: a campaign that "
                        "was measured with the compensation on.");
     }
+    if (zero_off)
+      notes.push_back(
+          fmt::format("After: {} was taken without compensation; it remains what the others are compared "
+                      "with.",
+                      zero));
     if (off > 0)
       notes.push_back(fmt::format("After, taken without compensation and left out: {} of {}.", off,
                                   countOf(on + off, "observation")));

@@ -4,12 +4,15 @@
 //
 // Deviations hold up to a constant per point and component, so both campaigns are compared as changes from their own
 // first state: d(state) = value(state) - value(first state), with the uncertainty of both. Only points, components and
-// states that both have are compared; what is missing on one side is counted. Per component: rms with the measuring
+// states that both have are compared; what is missing on one side is told. States are the same by their names, and by
+// their order where the campaigns share no name; the first one before is the zero of both, taken with compensation or
+// without. Per component: rms with the measuring
 // noise taken out (rms^2 = mean d^2 - mean u^2, its uncertainty from the scatter that noise gives a mean square; of one
 // value alone the value itself, so that the rms is never above the largest and equals it there), the
 // largest |d| with its own uncertainty. Decision rule of ISO 14253-1: met if value + U <= goal, not met if value - U >
 // goal, else it cannot be decided (U = 2 standard uncertainties). Units um and urad.
-// Failure: InputError if nothing can be compared, if before and after are the same data, or if a goal is not positive.
+// Failure: InputError if nothing can be compared or the zero is missing, if before and after are the same data, or if a
+// goal is not positive.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/workflows/verify_compensation.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -9,6 +10,7 @@
 #include "core/base/random.h"
 #include "core/workflows/compensated_data.h"
 #include "core/workflows/verify_map.h"
+#include "tests/support/refusal.h"
 
 namespace spindrift {
 namespace {
@@ -247,6 +249,42 @@ TEST(Verify, OnlyWhatBothHaveIsComparedAndTheRestIsCounted) {
   VerifyRequest bad;
   bad.goal_um = 0.0;
   EXPECT_THROW(static_cast<void>(verifyCompensation(measured(10.0, 0.2, 4), after, bad)), InputError);
+}
+
+TEST(Verify, StatesAreTheSameByTheirNames) {
+  // M2 was left out after: what is named M3 there was compared with M2 before.
+  const ObservationSet before = measured(30.0, 0.01, 4);
+  ObservationSet after = measured(24.0, 0.01, 5);
+  std::erase_if(after.rows, [](const Observation& o) { return o.state == "M2"; });
+  const VerifyResult r = verifyCompensation(before, after, {});
+  EXPECT_EQ(r.components[0].values, 16U);
+  for (const VerifyPoint& p : r.points) EXPECT_NEAR(p.before, p.state == "M3" ? 30.0 : 10.0, 0.1) << p.state;
+  EXPECT_THAT(r.notes, ::testing::Contains("Measured only before, and left out: M2."));
+  // Of other names in the same number they are the same by their order.
+  for (Observation& o : (after = measured(24.0, 0.01, 5)).rows) o.state = "V" + o.state.substr(1);
+  EXPECT_EQ(verifyCompensation(before, after, {}).components[0].values, 24U);
+  std::erase_if(after.rows, [](const Observation& o) { return o.state == "V2"; });
+  EXPECT_THROW(static_cast<void>(verifyCompensation(before, after, {})), InputError);
+}
+
+TEST(Verify, WhatIsLeftIsCountedFromTheStateThatChangesAreRelativeTo) {
+  // 8 um are left in every state after the first one; without that one nothing seemed to be left.
+  const ObservationSet before = measured(30.0, 0.01, 4);
+  ObservationSet after = measured(0.0, 0.01, 5);
+  for (Observation& o : after.rows)
+    if (o.state != "M0") o.value += 8.0;
+  EXPECT_EQ(verifyCompensation(before, after, {}).verdict, VerifyVerdict::NotMet);
+  ObservationSet without = after;
+  for (Observation& o : without.rows)
+    if (o.state == "M0") o.use = ObservationUse::Exclude;
+  EXPECT_THAT(testing::refusal([&] { static_cast<void>(verifyCompensation(before, without, {})); }),
+              ::testing::HasSubstr("no usable reading of M0, the first state before"));
+  // The cold state is taken before the compensation is switched on.
+  const Campaign off = campaignWith({0.0, 0.0, 0.0});
+  const VerifyResult cold = verifyCampaigns(off, before, campaignWith({0.0, 1.0, 1.0}), after, {});
+  EXPECT_EQ(cold.verdict, VerifyVerdict::NotMet);
+  EXPECT_NEAR(cold.components[0].after.largest, 8.0, 0.1);
+  EXPECT_THAT(cold.notes, ::testing::Contains(::testing::HasSubstr("M0 was taken without compensation; it remains")));
 }
 
 TEST(Verify, TheLogDecidesWhatBelongsToBeforeAndAfter) {
