@@ -121,7 +121,7 @@ void addSteps(Report& document, const DiscrepancyReportData& data) {
   document.table({"Effect", "Gain in BIC", "Decision"}, rows, "What was tried, in this order");
 }
 
-void addEffect(Report& document, const FoundEffect& effect, bool user_adds, bool held_out) {
+void addEffect(Report& document, const FoundEffect& effect, bool user_adds, bool held_out, const char* unit) {
   document.subsection(effectHeading(effect.id, effect.title) + (!user_adds      ? ""
                                                                 : effect.forced ? " (added to the model)"
                                                                                 : " (proposed)"));
@@ -132,10 +132,10 @@ void addEffect(Report& document, const FoundEffect& effect, bool user_adds, bool
           ? fmt::format("Probability that the name is right: {}.", percentText(effect.confidence))
           : fmt::format("Probability that it or one of its rivals is right: {}.", percentText(effect.confidence)));
   document.paragraph(
-      held_out ? fmt::format("Gain in BIC {:.0f}; rms on held-out data {:.2f} µm before, {:.2f} µm after.",
-                             effect.delta_bic, effect.heldout_rms_before_um, effect.heldout_rms_after_um)
-               : fmt::format("Gain in BIC {:.0f}; rms on blocks left out in turn {:.2f} µm before, {:.2f} µm after.",
-                             effect.delta_bic, effect.heldout_rms_before_um, effect.heldout_rms_after_um));
+      held_out ? fmt::format("Gain in BIC {:.0f}; rms on held-out data {:.2f} {} before, {:.2f} {} after.",
+                             effect.delta_bic, effect.heldout_rms_before_um, unit, effect.heldout_rms_after_um, unit)
+               : fmt::format("Gain in BIC {:.0f}; rms on blocks left out in turn {:.2f} {} before, {:.2f} {} after.",
+                             effect.delta_bic, effect.heldout_rms_before_um, unit, effect.heldout_rms_after_um, unit));
   if (!effect.rivals.empty()) {
     document.callout(CalloutKind::Attention, withEffectTitles(fmt::format("These data cannot distinguish it from {}.",
                                                                           joinedList(effect.rivals, "or"))));
@@ -472,7 +472,8 @@ void addDiscrepancyStory(Report& document, const DiscrepancyReportData& result, 
   document.callout(calloutOf(result.verdict), discrepancyHeadline(result));
   addGap(document, result);
   const bool held_out = anyHeldOut(result.rows);
-  for (const FoundEffect& effect : result.effects) addEffect(document, effect, result.user_adds, held_out);
+  for (const FoundEffect& effect : result.effects)
+    addEffect(document, effect, result.user_adds, held_out, result.gap.rotations ? "µrad" : "µm");
   addCandidates(document, result);
   if (!result.leftover.empty()) {
     document.callout(result.effects.empty() ? CalloutKind::Bad : CalloutKind::Attention,

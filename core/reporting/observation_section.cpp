@@ -76,6 +76,41 @@ std::vector<Change> changesOf(const ObservationSet& observations) {
   return changes;
 }
 
+/// One change for every state of a point and component: the mean of its readings, each against the first of its own
+/// measurand, weighted by their uncertainties.
+std::vector<Change> changesOfStates(const ObservationSet& observations, const std::vector<Change>& changes) {
+  std::map<std::tuple<std::string, std::string, Component>, std::vector<const Change*>> groups;
+  std::vector<const std::vector<const Change*>*> order;
+  for (const Change& c : changes) {
+    auto& group = groups[{c.row->state, c.row->point, c.row->component}];
+    if (group.empty()) order.push_back(&group);
+    group.push_back(&c);
+  }
+  const auto covariance = [&](const Observation* a, const Observation* b) {
+    if (a == b) return a->sigma * a->sigma;
+    const Observation* from = observations.rows.data();
+    return observations.shared.covariance(static_cast<std::size_t>(a - from), static_cast<std::size_t>(b - from));
+  };
+  std::vector<Change> out;
+  for (const auto* group : order) {
+    double total = 0.0;
+    for (const Change* c : *group) total += 1.0 / (c->row->sigma * c->row->sigma);
+    Change mean{group->front()->row, group->front()->first, 0.0, 0.0};
+    double variance = 0.0;
+    const auto weight = [&](const Change* c) { return 1.0 / (c->row->sigma * c->row->sigma) / total; };
+    for (const Change* a : *group) {
+      mean.value += weight(a) * a->value;
+      for (const Change* b : *group)
+        variance += weight(a) * weight(b) *
+                    (covariance(a->row, b->row) - covariance(a->row, b->first) - covariance(a->first, b->row) +
+                     covariance(a->first, b->first));
+    }
+    mean.sigma = std::sqrt(std::max(0.0, variance));
+    out.push_back(mean);
+  }
+  return out;
+}
+
 std::size_t medianCount(const ObservationSet& observations) {
   std::map<Measurand, std::size_t> counts;
   for (const Observation& o : observations.rows)
@@ -125,7 +160,9 @@ void addChangeTable(Report& document, const std::vector<std::string>& states, co
                                                : withUncertainty(found->second->value, found->second->sigma, ""));
     }
   }
-  document.table(header, rows, "Change of each point from its first reading, value ± one standard uncertainty");
+  document.table(header, rows,
+                 "Change of each point from its first reading, the mean of the readings of a state ± one standard "
+                 "uncertainty");
 }
 
 /// Displacements in one state with the table at one angle, ready for a map.
@@ -248,7 +285,10 @@ void addPanels(Report& document, const ObservationSet& observations, const std::
                         .compact = true};
     panels.push_back(plotPicture(lines, options));
   }
-  const std::size_t all = observations.points().size();
+  std::set<std::string> changing;
+  for (const Change& c : changes)
+    if (isRotation(c.row->component) == rotations && c.sigma > 0.0) changing.insert(c.row->point);
+  const std::size_t all = changing.size();
   document.figure(
       drawingGrid(panels, grid.columns, PanelGrid::gap_px),
       fmt::format("{} of {} from its first reading, all on one scale; bands: two standard uncertainties",
@@ -267,7 +307,7 @@ PanelGrid PanelGrid::of(std::size_t panels) {
 std::vector<LargestChange> largestChanges(const ObservationSet& measured) {
   const ObservationSet observations = placesOf(measured);
   std::map<Component, LargestChange> largest;
-  for (const Change& c : changesOf(observations)) {
+  for (const Change& c : changesOfStates(observations, changesOf(observations))) {
     LargestChange& most = largest[c.row->component];
     if (!most.point.empty() && std::abs(c.value) <= std::abs(most.value)) continue;
     most = {c.row->component, c.row->point, c.row->state, c.value, c.sigma};
@@ -280,19 +320,32 @@ std::vector<LargestChange> largestChanges(const ObservationSet& measured) {
 void addObservations(Report& document, const ObservationSet& observations) {
   if (observations.rows.empty()) return;
   document.section("Observations");
+  std::size_t used = 0;
+  std::set<std::string> points;
+  std::set<std::string> states;
+  for (const Observation& o : observations.rows) {
+    if (o.use == ObservationUse::Exclude) continue;
+    ++used;
+    points.insert(o.point);
+    states.insert(o.state);
+  }
   document.paragraph(
       fmt::format("{} observations of {} points in {} states. Deviation = actual minus commanded position of the tool "
                   "relative to the table, up to a constant per point and component; shown is the change from the first "
                   "reading of each point.",
-                  observations.rows.size(), observations.points().size(), observations.states().size()));
+                  used, points.size(), states.size()));
+  if (used < observations.rows.size())
+    document.paragraph(fmt::format("Excluded, and shown nowhere: {} of {} observations.",
+                                   observations.rows.size() - used, observations.rows.size()));
   const ObservationSet places = placesOf(observations);
   const std::vector<Change> changes = changesOf(places);
   if (changes.empty()) {
     document.callout(CalloutKind::Note, "Every point was read once only: there is no change to show.");
   } else if (medianCount(places) < least_for_curves) {
-    const std::vector<std::string> states = statesOf(places, changes);
-    addMaps(document, states, changes);
-    addChangeTable(document, states, changes);
+    const std::vector<std::string> in_order = statesOf(places, changes);
+    const std::vector<Change> of_states = changesOfStates(places, changes);
+    addMaps(document, in_order, of_states);
+    addChangeTable(document, in_order, of_states);
   } else {
     addPanels(document, places, changes, false);
     addPanels(document, places, changes, true);

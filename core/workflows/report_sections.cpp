@@ -467,9 +467,15 @@ void addVerification(Report& document, const StoredResults& stored) {
                    : verdict == "not met" ? CalloutKind::Bad
                                           : CalloutKind::Attention,
                    textOf(result, "reason"));
+  const char* by = textOf(result, "criterion") == "rms" ? "rms" : "largest";
+  const bool of_rotations = result.contains("goal_urad") && result["goal_urad"].is_number();
   document.paragraph(
-      fmt::format("Goal {:g} µm, judged by the {} of the changes from the first state; decision rule of ISO 14253-1.",
-                  numberOf(result, "goal_um"), textOf(result, "criterion") == "rms" ? "rms" : "largest"));
+      of_rotations ? fmt::format("Goals {:g} µm and {:g} µrad, judged by the {} of the changes from the first state; "
+                                 "decision rule of ISO 14253-1.",
+                                 numberOf(result, "goal_um"), numberOf(result, "goal_urad"), by)
+                   : fmt::format("Goal {:g} µm, judged by the {} of the changes from the first state; decision rule of "
+                                 "ISO 14253-1.",
+                                 numberOf(result, "goal_um"), by));
   std::vector<ReportRow> rows;
   for (const nlohmann::json& c : result["components"]) {
     const auto cell = [&](const char* side, const char* figure, const char* sigma) {

@@ -49,6 +49,13 @@ void addFittedParameters(Report& document, const NineParameterFit& fit, const st
   }
   document.table({"Parameter", "ISO 230-1", "Value ± standard uncertainty", "Meaning"}, rows,
                  fmt::format("Nine-parameter model of {}", state));
+  if (fit.rms_fit_um && fit.rms_validation_um) {
+    document.paragraph(fmt::format("rms of the fitted points {:.2f} µm, of the validation points {:.2f} µm.",
+                                   *fit.rms_fit_um, *fit.rms_validation_um));
+  } else if (fit.rms_fit_um) {
+    document.paragraph(fmt::format("rms of the fitted points {:.2f} µm.", *fit.rms_fit_um));
+  }
+  for (const std::string& warning : fit.warnings) document.callout(CalloutKind::Attention, warning);
 }
 
 /// The nine-parameter model of one state with its heat maps, or the reason why there is none.

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/reporting/plot_picture.h"
 #include "core/reporting/point_map.h"
@@ -55,6 +56,38 @@ TEST(ObservationSection, TwoStatesAreArrowsOverTheTableAndATable) {
   EXPECT_THAT(text, Not(HasSubstr("over time")));
 }
 
+TEST(ObservationSection, SeveralReadingsOfAStateAreOneChange) {
+  // The table showed the last one, the summary the largest.
+  ObservationSet set = observations(2);
+  for (const Observation& o : observations(2).rows) {
+    if (o.state != "M1") continue;
+    set.rows.push_back(o);
+    set.rows.back().time_s += 60.0;
+    set.rows.back().value += 8.0;
+  }
+  const std::string text = html(set);
+  // EY: -1 and 7 um; the uncertainty of a mean of two against one: 0.3 sqrt(1/2 + 1).
+  EXPECT_THAT(text, HasSubstr("<td>3.0 ± 0.4</td>"));
+  EXPECT_THAT(text, Not(HasSubstr("<td>10.0 ± 0.4</td>")));
+  EXPECT_THAT(text, Not(HasSubstr("<td>−1.0 ± 0.4</td>")));
+  for (const LargestChange& c : largestChanges(set)) {
+    EXPECT_NEAR(c.sigma, 0.3 * std::sqrt(1.5), 1e-9);
+    if (c.component == Component::EZ) {
+      EXPECT_NEAR(c.value, 7.0, 1e-9);
+    }
+  }
+}
+
+TEST(ObservationSection, CountsWhatIsUsed) {
+  ObservationSet set = observations(6);
+  for (Observation& o : set.rows)
+    if (o.point == "F2" || o.state == "M3") o.use = ObservationUse::Exclude;
+  const std::string text = html(set);
+  EXPECT_THAT(text, HasSubstr("45 observations of 3 points in 5 states"));
+  EXPECT_THAT(text, HasSubstr("Excluded, and shown nowhere: 27 of 72 observations."));
+  EXPECT_THAT(text, HasSubstr("Displacement of each point from its first reading"));
+}
+
 TEST(ObservationSection, AReversalErrorIsNoChange) {
   ObservationSet both;
   for (const double side : {1.0, -1.0}) {
@@ -65,7 +98,7 @@ TEST(ObservationSection, AReversalErrorIsNoChange) {
     }
   }
   const std::string text = html(both);
-  EXPECT_THAT(text, HasSubstr("F3: 3.0 ± 0.4"));
+  EXPECT_THAT(text, HasSubstr("F3: 3.0 ± 0.3")) << "the mean of both sides";
   EXPECT_THAT(text, Not(HasSubstr("<td>−9.0")));
   EXPECT_THAT(text, Not(HasSubstr("<td>−13.0")));
 }
