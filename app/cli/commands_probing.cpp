@@ -211,29 +211,31 @@ void addHealth(CLI::App& app, CommandLine& line) {
             directions.push_back({{"approach", {p.approach.x(), p.approach.y(), p.approach.z()}},
                                   {"pre_travel_um", p.pre_travel_um},
                                   {"standard_uncertainty_um", jsonNumber(p.standard_uncertainty_um)},
-                                  {"repeatability_um", p.repeatability_um},
+                                  {"repeatability_um", jsonNumber(p.repeatability_um)},
                                   {"touches", p.touches}});
           }
-          result.json["styli"].push_back({{"stylus", h.stylus},
-                                          {"feature", h.feature},
-                                          {"status", toString(h.status)},
-                                          {"message", h.message},
-                                          {"healthy", h.healthy},
-                                          {"loose", h.loose},
-                                          {"movement", toString(h.movement.kind)},
-                                          {"compared_with_other_styli", h.compared},
-                                          {"effective_radius_mm", h.effective_radius_mm},
-                                          {"effective_radius_standard_uncertainty_mm", h.effective_radius_sigma_mm},
-                                          {"pre_travel_range_um", h.pre_travel_range_um},
-                                          {"repeatability_um", h.repeatability_um},
-                                          {"largest_step_um", h.largest_step_um},
-                                          {"directions", directions}});
+          result.json["styli"].push_back(
+              {{"stylus", h.stylus},
+               {"feature", h.feature},
+               {"status", toString(h.status)},
+               {"message", h.message},
+               {"healthy", h.healthy},
+               {"loose", h.loose},
+               {"movement", toString(h.movement.kind)},
+               {"compared_with_other_styli", h.compared},
+               {"effective_radius_mm", h.effective_radius_mm},
+               {"effective_radius_standard_uncertainty_mm", jsonNumber(h.effective_radius_sigma_mm)},
+               {"pre_travel_range_um", h.pre_travel_range_um},
+               {"repeatability_um", jsonNumber(h.repeatability_um)},
+               {"largest_step_um", h.largest_step_um},
+               {"directions", directions}});
           result.summary += fmt::format("{} on {}: {}\n", h.stylus, h.feature, h.message);
           if (h.status == FitStatus::Converged) {
-            result.summary +=
-                fmt::format("  effective radius {}, pre-travel range {:.2f} µm, repeatability {:.2f} µm\n",
-                            withUncertainty(h.effective_radius_mm, h.effective_radius_sigma_mm, "mm"),
-                            h.pre_travel_range_um, h.repeatability_um);
+            result.summary += fmt::format(
+                "  effective radius {}, pre-travel range {:.2f} µm, repeatability {}\n",
+                withUncertainty(h.effective_radius_mm, h.effective_radius_sigma_mm, "mm"), h.pre_travel_range_um,
+                std::isfinite(h.repeatability_um) ? fmt::format("{:.2f} µm", h.repeatability_um)
+                                                  : std::string("not determined"));
           }
           if (!h.healthy) result.exit_status = NotGoodEnough;
         }
@@ -243,6 +245,7 @@ void addHealth(CLI::App& app, CommandLine& line) {
   command
       ->add_option("--healthy", a->options.healthy_sigma_um,
                    "Repeatability of a sound probe, µm (one standard deviation)")
+      ->check(positiveNumber())
       ->capture_default_str();
 }
 
@@ -363,11 +366,20 @@ void addStudies(CLI::App& app, CommandLine& line) {
         nlohmann::json per = nlohmann::json::object();
         result.summary = fmt::format("an unnoticed expansion of {} by 1 µm/m changes\n", bias.second);
         for (std::size_t p = 0; p < bias.names.size(); ++p) {
-          per[bias.names[p]] = bias.bias_per_um_per_m[p];
+          const double value = bias.bias_per_um_per_m[p];
+          per[bias.names[p]] = jsonNumber(value);
           const ErrorParameter parameter = describedParameter(bias.names[p]);
           result.summary +=
-              fmt::format("  {:<10} by {:+7.3f} {:<4}  {}\n", parameter.symbolWithIso(),
-                          printed(bias.bias_per_um_per_m[p]), printedUnit(parameter.unit), parameter.meaning);
+              std::isfinite(value)
+                  ? fmt::format("  {:<10} by {:+7.3f} {:<4}  {}\n", parameter.symbolWithIso(), printed(value),
+                                printedUnit(parameter.unit), parameter.meaning)
+                  : fmt::format("  {:<10} not determined  {}\n", parameter.symbolWithIso(), parameter.meaning);
+        }
+        if (std::none_of(bias.bias_per_um_per_m.begin(), bias.bias_per_um_per_m.end(),
+                         [](double value) { return std::isfinite(value); })) {
+          result.warnings.emplace_back(
+              "No cycle after the first determines the parameters: measure a second one, the bar at several angles.");
+          result.exit_status = NotGoodEnough;
         }
         result.json["bias_per_um_per_m"] = per;
         if (!s->growth.empty()) {
@@ -395,8 +407,11 @@ void addStudies(CLI::App& app, CommandLine& line) {
   second
       ->add_option("--stable-growth", s->growth,
                    "Known growth of the bar since the first cycle, µm/m: one number, or one per cycle")
-      ->delimiter(',');
-  second->add_option("--trust", s->trust_um_per_m, "Standard uncertainty of that growth, µm/m")->capture_default_str();
+      ->delimiter(',')
+      ->check(CLI::Range(-10000.0, 10000.0));
+  second->add_option("--trust", s->trust_um_per_m, "Standard uncertainty of that growth, µm/m")
+      ->check(positiveNumber())
+      ->capture_default_str();
 
   auto g = std::make_shared<CycleStudyArguments>();
   auto count = std::make_shared<int>(0);

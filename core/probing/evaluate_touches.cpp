@@ -296,7 +296,7 @@ InstrumentEvaluation describeTouches(const TouchEvaluation& evaluation, const Ma
     }
     nlohmann::json per = nlohmann::json::object();
     for (std::size_t p = 0; p < holes.bias.names.size(); ++p)
-      per[holes.bias.names[p]] = holes.bias.bias_per_um_per_m[p];
+      per[holes.bias.names[p]] = jsonNumber(holes.bias.bias_per_um_per_m[p]);
     details["bias_per_um_per_m_of_second_axis"] = {{"axis", holes.bias.second}, {"bias", per}};
     out.summary += fmt::format("  largest deviation from a straight line {:.2f} µm\n", holes.largest_nonlinearity_um);
   }

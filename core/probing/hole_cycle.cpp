@@ -496,7 +496,9 @@ SecondAxisBias secondAxisBias(const HoleCycleResult& result, const TouchList& li
   bias.second = result.setup.second;
   bias.names = result.names;
   const auto n = static_cast<Eigen::Index>(result.names.size());
-  bias.bias_per_um_per_m.assign(result.names.size(), 0.0);
+  // The second axis is a parameter itself where there are more: then its expansion changes no other.
+  const bool alone = n <= 9;
+  bias.bias_per_um_per_m.assign(result.names.size(), alone ? std::nan("") : 0.0);
   // The fullest cycle after the reference stands for all.
   int best = -1;
   for (std::size_t k = 0; k < result.cycles.size(); ++k) {
@@ -506,7 +508,7 @@ SecondAxisBias secondAxisBias(const HoleCycleResult& result, const TouchList& li
       best = static_cast<int>(k);
     }
   }
-  if (best < 0 || n > 9) return bias;  // alone, or the second axis is a parameter already
+  if (best < 0 || !alone) return bias;
   std::vector<Eigen::Index> rows;
   for (std::size_t r = 0; r < result.problem.rows.size(); ++r) {
     if (result.problem.rows[r].cycle == best && result.fit.used[r]) rows.push_back(static_cast<Eigen::Index>(r));
@@ -528,6 +530,7 @@ SecondAxisBias secondAxisBias(const HoleCycleResult& result, const TouchList& li
   const LinearFitResult fit = solveLinear(A, y, sigma);
   if (!fit.usable()) return bias;
   for (Eigen::Index p = 0; p < n; ++p) bias.bias_per_um_per_m[static_cast<std::size_t>(p)] = fit.x(p);
+  for (const int p : fit.undetermined) bias.bias_per_um_per_m[static_cast<std::size_t>(p)] = std::nan("");
   return bias;
 }
 

@@ -125,7 +125,7 @@ struct ExpectedGrowth {
 struct SecondAxisBias {
   std::string second;
   std::vector<std::string> names;
-  std::vector<double> bias_per_um_per_m;
+  std::vector<double> bias_per_um_per_m;  ///< NaN: the touches of no cycle but the first determine it
 };
 
 struct HoleCycleResult : CycleEvaluation {

@@ -9,6 +9,7 @@
 #include <map>
 
 #include "core/base/count_text.h"
+#include "core/base/error.h"
 #include "core/base/units.h"
 #include "core/math/statistics.h"
 
@@ -103,6 +104,34 @@ Scatter scatterOf(const std::vector<std::vector<StandOff>>& passes, std::size_t 
   return out;
 }
 
+/// Centre and radius take from the pre-travels what looks like a shift or another size, as if they were of one scatter
+/// (empirical Bayes): what is seen of them are the residuals of D directions about four parameters.
+void setUncertainties(std::vector<PreTravel>& directions, double noise_um) {
+  const auto count = static_cast<Eigen::Index>(directions.size());
+  Eigen::MatrixXd A(count, 4);
+  double seen = 0.0;
+  double of_noise = 0.0;
+  for (Eigen::Index d = 0; d < count; ++d) {
+    const PreTravel& p = directions[static_cast<std::size_t>(d)];
+    A.row(d) << p.approach.transpose(), 1.0;
+    seen += p.pre_travel_um * p.pre_travel_um;
+    of_noise += noise_um * noise_um / p.touches / static_cast<double>(count);
+  }
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(A);
+  const Eigen::MatrixXd basis = Eigen::MatrixXd(qr.householderQ()).leftCols(qr.rank());
+  const auto free = static_cast<double>(count - qr.rank());
+  for (Eigen::Index d = 0; d < count; ++d) {
+    PreTravel& p = directions[static_cast<std::size_t>(d)];
+    if (free < 2.0) {
+      p.standard_uncertainty_um = std::nan("");
+      continue;
+    }
+    const double lobes = std::max(0.0, seen / free - of_noise);
+    const double taken = basis.row(d).squaredNorm();
+    p.standard_uncertainty_um = std::sqrt(noise_um * noise_um / p.touches + lobes * taken);
+  }
+}
+
 StylusHealth check(const TouchList& list, const std::vector<std::size_t>& indices, double ball_diameter_mm,
                    double stylus_radius_mm, const ProbeHealthOptions& options, Track& track) {
   StylusHealth health;
@@ -129,6 +158,7 @@ StylusHealth check(const TouchList& list, const std::vector<std::size_t>& indice
   }
   std::map<std::string, Eigen::Vector3d> centre;
   double radius = 0.0;
+  double radius_variance = 0.0;  // of a touch with a variance of 1
   for (const std::string& pass : passes) {
     points.clear();
     for (const std::size_t i : of_pass[pass]) points.push_back(list.touches[i].position_mm);
@@ -140,6 +170,13 @@ StylusHealth check(const TouchList& list, const std::vector<std::size_t>& indice
     }
     centre[pass] = fit.centre_mm;
     radius += fit.radius_mm / static_cast<double>(passes.size());
+    // Beside the centre: touches of one side tell its distance and the radius together.
+    Eigen::Matrix4d normal = Eigen::Matrix4d::Zero();
+    for (const Eigen::Vector3d& point : points) {
+      const Eigen::Vector4d row = ((point - fit.centre_mm).normalized()).homogeneous();
+      normal += row * row.transpose();
+    }
+    radius_variance += normal.ldlt().solve(Eigen::Vector4d::UnitW())[3] / std::pow(double(passes.size()), 2);
   }
   health.centre_mm = centre[passes.front()];
   // Directions: greedy groups of touches from the same side.
@@ -201,10 +238,10 @@ StylusHealth check(const TouchList& list, const std::vector<std::size_t>& indice
   health.repeatability_dof = scatter.degrees_of_freedom;
   if (health.repeatability_dof > 0) health.repeatability_um = std::sqrt(scatter.squares_um2 / health.repeatability_dof);
   const double noise = health.repeatability_dof > 0 ? health.repeatability_um : options.healthy_sigma_um;
-  for (PreTravel& p : health.directions) p.standard_uncertainty_um = noise / std::sqrt(double(p.touches));
+  setUncertainties(health.directions, noise);
   health.pre_travel_range_um = high - low;
   health.effective_radius_mm = radius - 0.5 * ball_diameter_mm;
-  health.effective_radius_sigma_mm = noise * mm_per_um / std::sqrt(static_cast<double>(indices.size()));
+  health.effective_radius_sigma_mm = noise * mm_per_um * std::sqrt(radius_variance);
   for (std::size_t k = 0; k < passes.size(); ++k) {
     double time = 0.0;
     for (const std::size_t i : of_pass[passes[k]]) time += list.touches[i].time_s;
@@ -273,7 +310,7 @@ void judgeStylus(StylusHealth& health, const Track& track, const std::vector<con
   if (moves && !track.scatters) health.loose_direction = health.movement.direction;
   health.loose = track.scatters || moves;
   health.healthy = !health.loose && kind != MovementKind::Undecided && other_findings.empty() &&
-                   (health.repeatability_dof == 0 || health.repeatability_um <= options.healthy_sigma_um);
+                   health.repeatability_dof > 0 && health.repeatability_um <= options.healthy_sigma_um;
   double worst = 0.0;
   for (const PreTravel& p : health.directions) worst = std::max(worst, p.repeatability_um);
   if (track.scatters) {
@@ -292,7 +329,11 @@ void judgeStylus(StylusHealth& health, const Track& track, const std::vector<con
         "stylus {} sees the sphere move by {:.1f} µm; {} passes do not distinguish a loose stylus from thermal drift: "
         "touch the sphere in more passes (five or more), or several times in one",
         health.stylus, health.movement.largest_um, track.passes.size());
-  } else if (health.repeatability_dof > 0 && health.repeatability_um > options.healthy_sigma_um) {
+  } else if (health.repeatability_dof == 0) {
+    health.message = fmt::format(
+        "stylus {} cannot be judged: no touch repeats another; touch the sphere again, in one pass or in several",
+        health.stylus);
+  } else if (health.repeatability_um > options.healthy_sigma_um) {
     health.message = fmt::format("stylus {} repeats to {:.2f} µm only; a healthy probe keeps {:.2f} µm", health.stylus,
                                  health.repeatability_um, options.healthy_sigma_um);
   } else {
@@ -308,8 +349,15 @@ void judgeStylus(StylusHealth& health, const Track& track, const std::vector<con
 
 }  // namespace
 
+void ProbeHealthOptions::validate() const {
+  if (!(healthy_sigma_um > 0.0) || !std::isfinite(healthy_sigma_um))
+    throw InputError(
+        fmt::format("a sound probe cannot repeat to {:g} µm; allowed: a positive number.", healthy_sigma_um));
+}
+
 std::vector<StylusHealth> checkProbeHealth(const TouchList& list, const MachineDescription& machine,
                                            const ProbeHealthOptions& options) {
+  options.validate();
   list.checkAgainst(machine);
   std::vector<std::pair<std::string, std::string>> order;
   std::map<std::pair<std::string, std::string>, std::vector<std::size_t>> groups;

@@ -11,6 +11,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -26,15 +27,18 @@ struct ProbeHealthOptions {
   double loose_factor = 4.0;
   /// Touches whose directions differ by less are repeats of one another, deg.
   double same_direction_deg = 3.0;
+  /// Throws InputError: not positive.
+  void validate() const;
 };
 
 struct PreTravel {
   Eigen::Vector3d approach = Eigen::Vector3d::UnitX();
   double pre_travel_um = 0.0;  ///< relative to the mean over all directions
+  /// With what centre and radius may have taken of it; NaN where the directions are too few to tell.
   double standard_uncertainty_um = 0.0;
-  /// Standard deviation of a touch beside a mean of every direction and a centre of every pass; 0 where these follow
+  /// Standard deviation of a touch beside a mean of every direction and a centre of every pass; NaN where these follow
   /// every touch of the direction.
-  double repeatability_um = 0.0;
+  double repeatability_um = std::numeric_limits<double>::quiet_NaN();
   int touches = 0;
 };
 
@@ -47,9 +51,10 @@ struct StylusHealth {
   Eigen::Vector3d centre_mm = Eigen::Vector3d::Zero();
   std::vector<PreTravel> directions;
   double pre_travel_range_um = 0.0;
-  double repeatability_um = 0.0;  ///< the same of all touches
-  int repeatability_dof = 0;      ///< touches - directions - 3 for every pass but one
-  double largest_step_um = 0.0;   ///< largest movement of the sphere's centre between passes (cycles)
+  /// The same of all touches; NaN: nothing repeats, and the stylus is called neither healthy nor loose.
+  double repeatability_um = std::numeric_limits<double>::quiet_NaN();
+  int repeatability_dof = 0;     ///< touches - directions - 3 for every pass but one
+  double largest_step_um = 0.0;  ///< largest movement of the sphere's centre between passes (cycles)
   /// Movement of the centre over the passes, minus what the other styli see on the same sphere where they are there.
   StylusMovement movement;
   bool compared = false;                                      ///< with other styli

@@ -282,6 +282,16 @@ TEST(HoleCycle, ExpandingSecondAxisBiasesAndAStableLengthRemovesIt) {
   EXPECT_FALSE(open.parameters[2][9].determined);
 }
 
+TEST(HoleCycle, TheSecondAxisOfOneCycleIsNotDetermined) {
+  const MachineDescription m = machineFrom(holeMachineText());
+  VirtualRun run = runCycles(m, 3, {}, 9);
+  const std::string first = run.list.touches.front().cycle;
+  std::erase_if(run.list.touches, [&](const Touch& t) { return t.cycle != first; });
+  const SecondAxisBias bias = secondAxisBias(evaluateHoleCycles(run.list, m, m.artefacts.front()), run.list);
+  ASSERT_FALSE(bias.bias_per_um_per_m.empty());
+  for (const double value : bias.bias_per_um_per_m) EXPECT_TRUE(std::isnan(value)) << "not 0: nothing tells it";
+}
+
 TEST(HoleCycle, SwappedAndWrongFeaturesAreTold) {
   const MachineDescription m = machineFrom(holeMachineText());
   VirtualRun run = runCycles(m, 5, {}, 31);
