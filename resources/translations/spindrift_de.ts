@@ -9905,10 +9905,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Änderung / µm rms</translation>
     </message>
     <message>
-        <source>Change of each point from its first reading, value ± one standard uncertainty</source>
-        <translation>Änderung jedes Punkts gegenüber seinem ersten Messwert, Wert ± eine Standardunsicherheit</translation>
-    </message>
-    <message>
         <source>Changes of shape that no motion explains, and the standard uncertainty that each leaves in the deviation of its scan</source>
         <translation>Formänderungen, die keine Bewegung erklärt, und die Standardunsicherheit, die jede in der Abweichung ihres Scans hinterlässt</translation>
     </message>
@@ -11929,14 +11925,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Angetrieben von: {}.</translation>
     </message>
     <message>
-        <source>Gain in BIC {:.0f}; rms on blocks left out in turn {:.2f} µm before, {:.2f} µm after.</source>
-        <translation>Gewinn in BIC {:.0f}; rms an nacheinander ausgelassenen Blöcken {:.2f} µm vorher, {:.2f} µm nachher.</translation>
-    </message>
-    <message>
-        <source>Gain in BIC {:.0f}; rms on held-out data {:.2f} µm before, {:.2f} µm after.</source>
-        <translation>Gewinn in BIC {:.0f}; rms an Validierungsdaten {:.2f} µm vorher, {:.2f} µm nachher.</translation>
-    </message>
-    <message>
         <source>Probability that it or one of its rivals is right: {}.</source>
         <translation>Wahrscheinlichkeit, dass er oder eine seiner konkurrierenden Erklärungen stimmt: {}.</translation>
     </message>
@@ -12033,8 +12021,56 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>In der Simulation mit falscher Größe enthalten: {}{}.</translation>
     </message>
     <message>
-        <source>not exists (select 1 from standing t where t.campaign_id = s.campaign_id and t.kind = s.kind and t.id &gt; s.id)</source>
-        <translation type="unfinished"></translation>
+        <source>a sound probe cannot repeat to {:g} µm; allowed: a positive number.</source>
+        <translation>ein einwandfreier Taster kann nicht auf {:g} µm wiederholen; zulässig: eine positive Zahl.</translation>
+    </message>
+    <message>
+        <source>stylus {} cannot be judged: no touch repeats another; touch the sphere again, in one pass or in several</source>
+        <translation>Tastereinsatz {} ist nicht zu beurteilen: keine Antastung wiederholt eine andere; die Kugel noch einmal antasten, in einem Durchgang oder in mehreren</translation>
+    </message>
+    <message>
+        <source>Change of each point from its first reading, the mean of the readings of a state ± one standard uncertainty</source>
+        <translation>Änderung jedes Punkts gegenüber seinem ersten Messwert, Mittel der Messwerte eines Zustands ± eine Standardunsicherheit</translation>
+    </message>
+    <message>
+        <source>Excluded, and shown nowhere: {} of {} observations.</source>
+        <translation>Ausgeschlossen und nirgends gezeigt: {} von {} Beobachtungen.</translation>
+    </message>
+    <message>
+        <source>Gain in BIC {:.0f}; rms on blocks left out in turn {:.2f} {} before, {:.2f} {} after.</source>
+        <translation>Gewinn in BIC {:.0f}; rms an nacheinander ausgelassenen Blöcken {:.2f} {} vorher, {:.2f} {} nachher.</translation>
+    </message>
+    <message>
+        <source>Gain in BIC {:.0f}; rms on held-out data {:.2f} {} before, {:.2f} {} after.</source>
+        <translation>Gewinn in BIC {:.0f}; rms an Validierungsdaten {:.2f} {} vorher, {:.2f} {} nachher.</translation>
+    </message>
+    <message>
+        <source>After: {} was taken without compensation; it remains what the others are compared with.</source>
+        <translation>Nachher: {} wurde ohne Kompensation gemessen und bleibt das, womit die anderen verglichen werden.</translation>
+    </message>
+    <message>
+        <source>Goals {:g} µm and {:g} µrad, judged by the {} of the changes from the first state; decision rule of ISO 14253-1.</source>
+        <translation>Ziele {:g} µm und {:g} µrad, beurteilt nach: {} der Änderungen gegenüber dem ersten Zustand; Entscheidungsregel nach ISO 14253-1.</translation>
+    </message>
+    <message>
+        <source>Measured only {}, and left out: {}.</source>
+        <translation>Nur {} gemessen und weggelassen: {}.</translation>
+    </message>
+    <message>
+        <source>The machine files differ in &quot;{}&quot;: the same machine is to be compared.</source>
+        <translation>Die Maschinendateien unterscheiden sich in „{}“: zu vergleichen ist dieselbe Maschine.</translation>
+    </message>
+    <message>
+        <source>holds no usable reading of {}, the first state before, which all changes are relative to: what is left of them is not known; allowed: the same plan measured again, its first state included.</source>
+        <translation>enthält keinen brauchbaren Messwert von {}, dem ersten Zustand vorher, auf den sich alle Änderungen beziehen: was von ihnen übrig ist, ist nicht bekannt; zulässig: derselbe Plan noch einmal gemessen, mit seinem ersten Zustand.</translation>
+    </message>
+    <message>
+        <source>rms of the fitted points {:.2f} µm, of the validation points {:.2f} µm.</source>
+        <translation>rms der angepassten Punkte {:.2f} µm, der Validierungspunkte {:.2f} µm.</translation>
+    </message>
+    <message>
+        <source>rms of the fitted points {:.2f} µm.</source>
+        <translation>rms der angepassten Punkte {:.2f} µm.</translation>
     </message>
 </context>
 <context>

@@ -50,7 +50,7 @@ INSTRUMENT = re.compile(r'if \(instrument == "\w+"\) return "([^"]+)";')
 # Help is XHTML with drawings: every block of it is a text of its own, with its marks (widgets/common/help_text.cpp).
 HELP_BLOCKS = {"h3", "h4", "p", "li", "td", "text"}
 PLACEHOLDER = re.compile(r"\{[^{}]*(?:\{\}[^{}]*)*\}")
-STATEMENT = re.compile(r"\s*(select|insert|update|delete|create|drop|alter|pragma|where|from|order by|for update|begin "
+STATEMENT = re.compile(r"\s*(not exists|select|insert|update|delete|create|drop|alter|pragma|where|from|order by|for update|begin "
                        r"|set [a-z_.]+ =|set default_|setp |sets |addf |net |newsig |show (pin|sig)|timeout |bigint |integer "
                        r"|do \$|page=\{|DejaVu |Inter, |while (executing|preparing)$|  +|--(wrap|dependency)=|TCH |FN |L [XZ{]|%Y|%\d)")
 MARKUP = re.compile(r'</|<\w+[ >]|=\\"|^#|^\*[A-Z]|\\n.*\\n', re.S)

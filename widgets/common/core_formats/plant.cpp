@@ -76,7 +76,6 @@ std::span<const char* const> spindrift::gui::core_formats::plant() noexcept {
     QT_TRANSLATE_NOOP("core", "no pipe: {}."),
     QT_TRANSLATE_NOOP("core", "none yet, none of its results has any"),
     QT_TRANSLATE_NOOP("core", "none yet, publish a campaign of it first"),
-    QT_TRANSLATE_NOOP("core", "not exists (select 1 from standing t where t.campaign_id = s.campaign_id and t.kind = s.kind and t.id > s.id)"),
     QT_TRANSLATE_NOOP("core", "one of \"campaigns\" and \"seeds\""),
     QT_TRANSLATE_NOOP("core", "plan of the batch"),
     QT_TRANSLATE_NOOP("core", "postgresql:{}"),
