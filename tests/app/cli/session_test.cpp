@@ -76,6 +76,50 @@ TEST(SessionCommand, SaysHowFarEveryStepIsAndWhatChanged) {
   expectBadInput({"session", folder.path().string()}, {"is not a session"});
 }
 
+/// A campaign of six points that move by `growth_um` in EX between its two states.
+std::string pointsFolder(const TempFolder& folder, const std::string& name, double growth_um, double on) {
+  (void)folder.write(name + "/campaign.json", R"({"format":"spindrift-campaign","version":1,"name":")" + name +
+                                                  R"(","start_utc":"2026-03-01T08:00:00Z"})");
+  (void)folder.write(name + "/machine.json", R"({"format":"spindrift-machine","version":1,"name":"mill",
+      "chain":"V [w-X'-Y'-b-Z-t]","axes":[{"name":"X","travel_mm":[0,300]},{"name":"Y","travel_mm":[0,300]},
+                                          {"name":"Z","travel_mm":[0,300]}]})");
+  (void)folder.write(name + "/log.csv",
+                     "time_s,compensation_on\n0," + std::to_string(on) + "\n7200," + std::to_string(on) + "\n");
+  std::string rows = "time_s,state,point,x_mm,y_mm,z_mm,component,value,sigma,use\n";
+  for (int state = 0; state < 2; ++state)
+    for (int p = 0; p < 6; ++p)
+      rows += std::to_string(3600 * state + 10 * p) + ",M" + std::to_string(state) + ",P" + std::to_string(p) + "," +
+              std::to_string(40 * p) + "," + std::to_string(30 * (p % 3)) + ",0,EX," +
+              std::to_string(growth_um * state + 0.01 * p * (state + 1)) + ",0.3,fit\n";
+  (void)folder.write(name + "/observations.csv", rows);
+  return (folder / name).string();
+}
+
+TEST(SessionCommand, ResultsThatRestOnAnotherCampaignAreOutdatedWithItsFiles) {
+  // The files of the second campaign were read after the first one had been judged: the first call said "done", and a
+  // report of it had the old figures.
+  const TempFolder folder;
+  const std::string place = (folder / "s").string();
+  JobContext job;
+  {
+    Session session = Session::create(place);
+    const auto before = session.importCampaign(pointsFolder(folder, "before", 30.0, 0.0), job);
+    (void)session.importCampaign(pointsFolder(folder, "after", 1.0, 1.0), job);
+    session.setSetting("verify/" + std::to_string(before), {{"after", "campaigns/after"}});
+  }
+  EXPECT_EQ(jsonOf({"session", place, "--campaign", "before", "--run", "verify"}).at("ran"),
+            nlohmann::json({"verify"}));
+  EXPECT_EQ(stepOf(jsonOf({"session", place, "--campaign", "before"}), "Verify").at("state"), "done");
+  (void)pointsFolder(folder, "s/campaigns/after", 20.0, 1.0);
+  const nlohmann::json step = stepOf(jsonOf({"session", place, "--campaign", "before"}), "Verify");
+  EXPECT_EQ(step.at("state"), "outdated") << step;
+  // What is run at once is of the files as they are, and holds.
+  (void)pointsFolder(folder, "s/campaigns/after", 10.0, 1.0);
+  EXPECT_EQ(jsonOf({"session", place, "--campaign", "before", "--run", "verify"}).at("ran"),
+            nlohmann::json({"verify"}));
+  EXPECT_EQ(stepOf(jsonOf({"session", place, "--campaign", "before"}), "Verify").at("state"), "done");
+}
+
 /// evaluate and report on a session ask what the window asks: what holds is taken, what is made is kept.
 TEST(SessionCommand, EvaluateAndReportShareTheTasksOfTheWindow) {
   const TempFolder folder;
